@@ -1,0 +1,32 @@
+// Images in and out, through OpenImageIO. The library takes 0.2 s to load, so it sits in a plug-in
+// (lib/libcopse_images.so beside the tools) that is loaded when the first image is asked for.
+#pragma once
+
+#include "lib/formats/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace copse {
+
+// Rows from the top, interleaved, 8 bits a channel as stored (colour images: sRGB), 4 channels: RGBA.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba;
+  bool has_alpha = false;  // false: alpha is 255 everywhere because the file has none
+};
+
+Result<Image> read_image(const std::filesystem::path& path);
+Result<Image> read_image(std::span<const std::uint8_t> bytes, const std::string& name);
+
+// The bytes of a PNG file, 8 bits a channel, RGBA (RGB without alpha); deterministic.
+Result<std::vector<std::uint8_t>> encode_png(const Image& image);
+
+// The extension picks the format (PNG, JPEG, EXR, TIFF, ...). Written beside, synced, renamed.
+Result<void> write_image(const std::filesystem::path& path, const Image& image);
+
+}  // namespace copse

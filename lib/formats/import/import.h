@@ -1,0 +1,52 @@
+// Reads a mesh file of any supported kind into a Mesh: OBJ, PLY, OFF, STL, glTF and GLB, gzipped or not.
+//
+// Hostile input is normal input: whatever the bytes are, the answer is a Mesh whose indices are all in range
+// and whose coordinates are all finite, or one Error; in bounded time and in memory proportional to the
+// file's size.
+#pragma once
+
+#include "lib/formats/mesh.h"
+#include "lib/formats/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace copse {
+
+enum class MeshFormat { unknown, obj, ply, off, stl, gltf, glb };
+
+struct ImportOptions {
+  // Refuse what is otherwise dropped and counted: bad normal or texture indices, faces naming missing
+  // vertices, missing material libraries.
+  bool strict = false;
+};
+
+// What was dropped or mended; a warning names each kind once, with the first place and the count.
+struct ImportCounts {
+  std::uint64_t dropped_faces = 0;      // fewer than 3 distinct corners, or vertices out of range
+  std::uint64_t dropped_normals = 0;    // corners whose normal index was out of range
+  std::uint64_t dropped_texcoords = 0;  // corners whose texture index was out of range
+  std::uint64_t cut_polygons = 0;       // n-gons, n > 3, triangulated
+};
+
+struct Import {
+  Mesh mesh;
+  MeshFormat format = MeshFormat::unknown;
+  ImportCounts counts;
+  std::vector<std::string> warnings;
+  std::vector<std::filesystem::path> files;  // everything that was read, the mesh first: for depfiles
+  std::uint64_t bytes = 0;                   // of the mesh file as stored
+};
+
+// Reads `path`; the content decides the format where it can, otherwise the extension (".obj.gz" is an OBJ).
+// Material libraries, buffers and images are looked up relative to the file and only below its folder.
+Result<Import> import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
+
+// The same over bytes in memory, for tests and fuzzers. Nothing else is opened.
+Result<Import> import_mesh(std::span<const std::uint8_t> bytes, MeshFormat format, const std::string& name,
+                           const ImportOptions& options = {});
+
+}  // namespace copse

@@ -1,0 +1,80 @@
+// .tree and .stree files: Tree to bytes and back. docs/formats.md is the byte-level specification.
+//
+// A reader trusts nothing: every count, offset and index is checked before use; what is refused is named by
+// its section and offset. Opening maps the file and reads the header and the section table only.
+#pragma once
+
+#include "lib/formats/result.h"
+#include "lib/formats/tree.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace copse {
+
+enum class Encoding : std::uint32_t { raw = 0, zstd = 1 };
+
+struct SectionInfo {
+  std::string name;  // four characters
+  std::uint32_t version = 0;
+  Encoding encoding = Encoding::raw;
+  std::uint64_t offset = 0;       // in the file; a multiple of 64
+  std::uint64_t stored_size = 0;  // bytes in the file
+  std::uint64_t decoded_size = 0;
+  std::uint64_t checksum = 0;  // XXH3-64 of the stored bytes
+};
+
+// How much is checked before an array is handed out.
+enum class Trust {
+  nothing,    // checksums and every invariant: whatever is returned can be used without a further check
+  checksums,  // sizes and checksums only: for files of one's own that may be damaged but not forged
+  file,       // sizes only: nothing is read that is not asked for; for files that were verified before
+};
+
+struct WriteOptions {
+  Encoding encoding = Encoding::raw;
+  // Sections (four-character names) left out on purpose; they are listed in the file, and treedump shows
+  // them.
+  std::vector<std::string> omit;
+};
+
+// The bytes of the file. Deterministic: the same tree and options give the same bytes.
+Result<std::vector<std::uint8_t>> encode_tree(const Tree& tree, const WriteOptions& options = {});
+
+class TreeFile {
+ public:
+  // Maps the file; reads and checks the header and the section table: O(sections), not O(bytes).
+  static Result<TreeFile> open(const std::filesystem::path& path, Trust trust = Trust::nothing);
+  // The same over bytes in memory, for tests and fuzzers; `name` stands in messages.
+  static Result<TreeFile> from_bytes(std::vector<std::uint8_t> bytes, std::string name,
+                                     Trust trust = Trust::nothing);
+
+  const TreeHeader& header() const;
+  const std::vector<SectionInfo>& sections() const;
+  const std::vector<std::string>& omitted() const;  // what the writer left out on purpose
+  bool has(std::string_view section) const;
+  std::uint64_t size() const;  // bytes of the file
+
+  // Everything that is present (or only the named sections); raw sections are used in place, the rest
+  // decoded.
+  Result<Tree> load() const;
+  Result<Tree> load(const std::vector<std::string>& only) const;
+
+  // All checksums and all invariants of digest 000 section 9 (treedump): every failure, not only the first.
+  std::vector<std::string> verify() const;
+
+ private:
+  struct Impl;
+  explicit TreeFile(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  std::shared_ptr<const Impl> impl_;
+};
+
+// Every invariant of a tree in memory: all that fail, with the section and the element. Empty when it is
+// sound.
+std::vector<std::string> check_tree(const Tree& tree);
+
+}  // namespace copse
