@@ -1,0 +1,30 @@
+// A file's bytes, mapped read-only: nothing is read until it is touched.
+#pragma once
+
+#include "lib/formats/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace copse {
+
+// Copies share one mapping, which lives as long as any of them. A regular file is mapped; a pipe (such as a
+// shell's <(command)) is read to its end; anything else is refused. Files that copse writes are replaced by
+// rename, so a mapping keeps the old contents; a foreign program that truncates a mapped file in place makes
+// the next touch of the missing pages fail (SIGBUS), as with any mapping.
+class MappedFile {
+ public:
+  static Result<MappedFile> open(const std::filesystem::path& path);
+
+  std::span<const std::uint8_t> bytes() const { return bytes_; }
+  // What keeps the bytes alive, for Arrays that borrow them.
+  const std::shared_ptr<const void>& owner() const { return owner_; }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+  std::shared_ptr<const void> owner_;
+};
+
+}  // namespace copse
