@@ -1,0 +1,33 @@
+// Copies the normals and texture coordinates that a set of triangles uses, each once, in the order of first
+// use.
+#pragma once
+
+#include "lib/formats/array.h"
+#include "lib/formats/mesh.h"
+#include "lib/formats/tree.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace copse {
+
+class CornerColumns {
+ public:
+  CornerColumns(const Mesh& mesh, bool with_normals, bool with_texcoords);
+
+  // The normal and texture indices of a mesh triangle's corners, into the columns below; vertices stay 0.
+  CornerTriangle corners(std::uint32_t mesh_triangle);
+
+  std::vector<Float3> normals;
+  std::vector<Float2> texcoords;
+
+ private:
+  const Mesh& mesh_;
+  std::vector<std::uint32_t> stored_normal_, stored_texcoord_;
+};
+
+// One material for all, or one each: fills either `constant` or `each`.
+void store_materials(std::vector<std::uint32_t> materials, std::uint32_t& constant,
+                     Array<std::uint32_t>& each);
+
+}  // namespace copse
