@@ -1,0 +1,72 @@
+#include "lib/analysis/measure/cylinder_error.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+// A prism of k sides and two rings, radius 1, height 2; vertex i of the upper ring pushed out by `bulge`.
+struct Prism {
+  TrunkMesh mesh;
+  Hierarchy hierarchy;
+};
+
+Prism prism(int k, double bulge = 0) {
+  Prism p;
+  for (int ring = 0; ring < 2; ++ring) {
+    for (int i = 0; i < k; ++i) {
+      const double a = 2 * std::numbers::pi * i / k, r = 1 + (ring == 1 && i == 0 ? bulge : 0);
+      p.mesh.positions.push_back({r * std::cos(a), 2.0 * ring, r * std::sin(a)});
+    }
+  }
+  for (int i = 0; i < k; ++i) {
+    const auto a = static_cast<std::uint32_t>(i), b = static_cast<std::uint32_t>((i + 1) % k),
+               n = static_cast<std::uint32_t>(k);
+    p.mesh.triangles.push_back({a, a + n, b});
+    p.mesh.triangles.push_back({b, a + n, b + n});
+  }
+  p.hierarchy.radii = {{{0, 0, 0}, 2, k_none}, {{0, 2, 0}, 2, 0}};
+  p.hierarchy.segment_of.assign(p.mesh.triangles.size(), 1);
+  return p;
+}
+
+TEST(CylinderError, IsZeroOnARegularPrism) {
+  const Prism p = prism(6);
+  const CylinderError e = cylinder_error(p.mesh, p.hierarchy, 2);
+  EXPECT_LT(e.of_radius.max, 1e-15);
+  EXPECT_EQ(e.explained_triangles, 1);
+  EXPECT_EQ(e.explained_area, 1);
+}
+
+TEST(CylinderError, MeasuresABulgeAsAShareOfRadiusAndHeight) {
+  const Prism p = prism(8, 0.25);
+  const CylinderError e = cylinder_error(p.mesh, p.hierarchy, 2);
+  EXPECT_NEAR(e.of_radius.max, 0.25, 1e-12);
+  EXPECT_NEAR(e.of_height.max, 0.125, 1e-12);
+  EXPECT_GT(e.of_radius.rms, e.of_radius.mean);
+}
+
+TEST(CylinderError, CountsWhatNoSegmentExplains) {
+  Prism p = prism(4);
+  p.hierarchy.segment_of[0] = p.hierarchy.segment_of[1] = k_none;
+  const CylinderError e = cylinder_error(p.mesh, p.hierarchy, 2);
+  EXPECT_DOUBLE_EQ(e.explained_triangles, 6.0 / 8);
+  EXPECT_DOUBLE_EQ(e.explained_area, 6.0 / 8);
+}
+
+TEST(CylinderError, OfAnEmptyTrunkIsNothing) {
+  const CylinderError e = cylinder_error({}, {}, 0);
+  EXPECT_EQ(e.of_radius.max, 0);
+  EXPECT_EQ(e.explained_triangles, 1);
+}
+
+TEST(CylinderError, IsDefinedWhereTheSegmentHasNoLength) {
+  Prism p = prism(4);
+  p.hierarchy.radii[1].centre = p.hierarchy.radii[0].centre;
+  EXPECT_TRUE(std::isfinite(cylinder_error(p.mesh, p.hierarchy, 2).of_radius.max));
+}
+
+}  // namespace
+}  // namespace copse
