@@ -1,0 +1,190 @@
+#include "lib/analysis/trunk/weld.h"
+
+#include "lib/analysis/trunk/tolerances.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace copse {
+namespace {
+
+std::uint64_t mix(
+    std::uint64_t h) {  // the finalizer of MurmurHash3: every input bit reaches every output bit
+  h ^= h >> 33;
+  h *= 0xff51afd7ed558ccdULL;
+  h ^= h >> 33;
+  h *= 0xc4ceb9fe1a85ec53ULL;
+  return h ^ (h >> 33);
+}
+
+std::uint64_t hash_of(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+  return mix(a + 0x9e3779b97f4a7c15ULL * (mix(b + 0x9e3779b97f4a7c15ULL * mix(c + 1)) | 1));
+}
+
+// Buckets of point chains, addressed by hash. Chains may hold points of other cells: users compare.
+class Buckets {
+ public:
+  explicit Buckets(std::size_t points)
+      : mask_(std::bit_ceil(std::max<std::size_t>(16, points)) - 1),
+        head_(mask_ + 1, k_none),
+        next_(points) {}
+  std::uint32_t first(std::uint64_t hash) const { return head_[hash & mask_]; }
+  std::uint32_t next(std::uint32_t point) const { return next_[point]; }
+  void insert(std::uint64_t hash, std::uint32_t point) {
+    next_[point] = head_[hash & mask_];
+    head_[hash & mask_] = point;
+  }
+
+ private:
+  std::uint64_t mask_;
+  std::vector<std::uint32_t> head_, next_;
+};
+
+// Joins equal positions; fills `representative`.
+void weld_equal(std::span<const Double3> p, std::vector<std::uint32_t>& representative) {
+  Buckets buckets(p.size());
+  for (std::uint32_t i = 0; i < p.size(); ++i) {
+    // + 0.0 makes -0 and 0 the same bits.
+    const std::uint64_t hash =
+        hash_of(std::bit_cast<std::uint64_t>(p[i].x + 0.0), std::bit_cast<std::uint64_t>(p[i].y + 0.0),
+                std::bit_cast<std::uint64_t>(p[i].z + 0.0));
+    std::uint32_t j = buckets.first(hash);
+    while (j != k_none && !(p[j] == p[i])) j = buckets.next(j);
+    representative[i] = j == k_none ? i : j;
+    if (j == k_none) buckets.insert(hash, i);
+  }
+}
+
+// Grids of several cell sizes in one table. A point lies in the grid of its tolerance's power of two, whose
+// cells are k_cells of them wide: few points of a grid share a cell, and few look into a neighbouring one.
+class Grids {
+ public:
+  Grids(std::span<const Double3> positions, std::span<const double> tolerances)
+      : positions_(positions), tolerances_(tolerances), buckets_(positions.size()) {
+    DoubleBox box;
+    for (const Double3& p : positions) box.grow(p);
+    if (!box.empty()) low_ = box.min;
+  }
+
+  // The lowest point in the grids that `i` may be welded to; k_none when there is none.
+  std::uint32_t nearest_representative(std::uint32_t i) const {
+    std::uint32_t found = k_none;
+    for (const int level : levels_) {
+      const double cell = std::ldexp(k_cells, level);
+      const double reach = std::min(tolerances_[i], std::ldexp(2.0, level));
+      std::array<std::array<std::int64_t, 2>, 3> range;
+      for (int axis = 0; axis < 3; ++axis) {
+        range[axis] = {index(positions_[i][axis] - reach, axis, cell),
+                       index(positions_[i][axis] + reach, axis, cell)};
+      }
+      for (std::int64_t x = range[0][0]; x <= range[0][1]; ++x) {
+        for (std::int64_t y = range[1][0]; y <= range[1][1]; ++y) {
+          for (std::int64_t z = range[2][0]; z <= range[2][1]; ++z) {
+            found = std::min(found, search(hash(level, x, y, z), i));
+          }
+        }
+      }
+    }
+    return found;
+  }
+
+  void insert(std::uint32_t i) {
+    const int level = level_of(tolerances_[i]);
+    const auto at = std::ranges::lower_bound(levels_, level);
+    if (at == levels_.end() || *at != level) levels_.insert(at, level);
+    const double cell = std::ldexp(k_cells, level);
+    buckets_.insert(hash(level, index(positions_[i].x, 0, cell), index(positions_[i].y, 1, cell),
+                         index(positions_[i].z, 2, cell)),
+                    i);
+  }
+
+ private:
+  static constexpr double k_cells = 8;
+
+  // 2^level <= tolerance < 2^(level + 1)
+  static int level_of(double tolerance) { return std::ilogb(tolerance); }
+  std::int64_t index(double x, int axis, double cell) const {
+    // Beyond 2^62 cells a double cannot tell cells apart any more; they all become the last one.
+    return static_cast<std::int64_t>(std::floor(std::clamp((x - low_[axis]) / cell, -0x1p62, 0x1p62)));
+  }
+  static std::uint64_t hash(int level, std::int64_t x, std::int64_t y, std::int64_t z) {
+    return hash_of(static_cast<std::uint64_t>(x) + 0x632be59bd9b4e019ULL * static_cast<std::uint64_t>(level),
+                   static_cast<std::uint64_t>(y), static_cast<std::uint64_t>(z));
+  }
+  std::uint32_t search(std::uint64_t hash, std::uint32_t i) const {
+    std::uint32_t found = k_none;
+    for (std::uint32_t j = buckets_.first(hash); j != k_none; j = buckets_.next(j)) {
+      if (j < found && distance(positions_[i], positions_[j]) <= std::min(tolerances_[i], tolerances_[j])) {
+        found = j;
+      }
+    }
+    return found;
+  }
+
+  std::span<const Double3> positions_;
+  std::span<const double> tolerances_;
+  Buckets buckets_;
+  Double3 low_;
+  std::vector<int> levels_;  // in use, ascending
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const double> tolerances) {
+  std::vector<std::uint32_t> representative(positions.size());
+  weld_equal(positions, representative);
+  Grids grids(positions, tolerances);
+  for (std::uint32_t i = 0; i < positions.size(); ++i) {
+    if (representative[i] != i) {
+      representative[i] = representative[representative[i]];
+    } else if (tolerances[i] > 0) {
+      const std::uint32_t found = grids.nearest_representative(i);
+      if (found == k_none) {
+        grids.insert(i);
+      } else {
+        representative[i] = found;
+      }
+    }
+  }
+  return representative;
+}
+
+std::vector<std::uint32_t> weld(std::span<const Double3> positions, double tolerance) {
+  return weld(positions, std::vector<double>(positions.size(), tolerance));
+}
+
+std::vector<double> weld_tolerances(std::span<const Double3> positions, std::span<const Triangle> triangles) {
+  DoubleBox box;
+  for (const Triangle& t : triangles) {
+    for (const std::uint32_t v : t) box.grow(positions[v]);
+  }
+  // Coordinates so large that differences overflow leave nothing to compare tolerances with.
+  const double diagonal = std::isfinite(length(box.extent())) ? length(box.extent()) : 0;
+  std::vector<double> noise(positions.size(), 0), shortest(positions.size(), diagonal);
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const Double3& p = positions[v];
+    const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    noise[v] = std::min(size * k_weld_float_noise, diagonal * k_weld_noise_of_diagonal);
+  }
+  std::vector<double> tolerances(positions.size(), 0);
+  for (const Triangle& t : triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+      tolerances[a] = 1;  // used
+      const double l = distance(positions[a], positions[b]);
+      if (l > std::max(noise[a], noise[b])) {
+        shortest[a] = std::min(shortest[a], l);
+        shortest[b] = std::min(shortest[b], l);
+      }
+    }
+  }
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (tolerances[v] == 0) continue;
+    tolerances[v] = std::max(noise[v], std::min(shortest[v] * k_weld_of_edge, diagonal * k_weld_of_diagonal));
+  }
+  return tolerances;
+}
+
+}  // namespace copse
