@@ -56,15 +56,14 @@ class Context;
 // when it takes more than about a second.
 class Stage {
  public:
+  struct Impl;
+  explicit Stage(std::unique_ptr<Impl> impl);  // Context::stage() makes stages
   Stage(Stage&&) noexcept;
   ~Stage();
   void items(std::uint64_t count, std::string unit);  // what the stage went through
   void progress(double fraction);  // 0 to 1; cheap, may be called often and from any thread
 
  private:
-  friend class Context;
-  struct Impl;
-  explicit Stage(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 
@@ -76,8 +75,14 @@ class Context {
   virtual Stage stage(std::string name) = 0;
   // Warns on stderr (unless --quiet) and in the report.
   virtual void warn(std::string_view message) = 0;
-  // Notes a file that was read: for the report (with its hash when it is an input) and the depfile.
+  // Text on stdout at once, whatever becomes of the run: for answers such as a list of failed checks.
+  virtual void print(std::string_view text) = 0;
+  // Notes a file that was read: for the depfile and, when it is an input, for the report (its hash is taken
+  // only when a report or page was asked for). Call it before the outputs are written, so that an output
+  // that would overwrite an input is refused.
   virtual void read(const std::filesystem::path& path, bool is_input) = 0;
+  // Whether this output could be written, as far as that can be known beforehand: call it before long work.
+  virtual Result<void> check_output(const std::filesystem::path& path) = 0;
   // Writes an output: beside it, synced, renamed; all outputs of a run become visible only when run() has
   // succeeded. "-" is stdout.
   virtual Result<void> write(const std::filesystem::path& path, std::string_view bytes) = 0;

@@ -1,0 +1,47 @@
+// The Context that run_tool hands to a tool.
+#pragma once
+
+#include "tools/common/console.h"
+#include "tools/common/outputs.h"
+#include "tools/common/tool.h"
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace copse {
+
+class ToolContext : public Context {
+ public:
+  ToolContext(const ToolInfo& info, CommonOptions options);
+
+  const CommonOptions& options() const override { return options_; }
+  Report& report() override { return report_; }
+  Stage stage(std::string name) override;
+  void warn(std::string_view message) override;
+  void print(std::string_view text) override;
+  void read(const std::filesystem::path& path, bool is_input) override;
+  Result<void> check_output(const std::filesystem::path& path) override;
+  Result<void> write(const std::filesystem::path& path, std::string_view bytes) override;
+
+  Console& console() { return console_; }
+  Outputs& outputs() { return outputs_; }
+
+  // Report, page and dependency file as asked for, then everything becomes visible.
+  Result<void> finish();
+
+ private:
+  bool reports() const { return !options_.report.empty() || !options_.html.empty(); }
+  Result<void> refuse_overwriting(const std::filesystem::path& path) const;
+  Result<void> write_depfile();
+
+  CommonOptions options_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Report report_;
+  Console console_;
+  Outputs outputs_;
+  std::vector<std::filesystem::path> read_;  // everything that was read, in order
+  Result<void> printed_;                     // the first failure of print()
+};
+
+}  // namespace copse
