@@ -1,5 +1,6 @@
 #include "lib/analysis/tree/trunk_arrays.h"
 
+#include "lib/analysis/tree/constant_step.h"
 #include "lib/analysis/tree/corner_columns.h"
 
 #include <algorithm>
@@ -170,16 +171,6 @@ Segments sort_segments(const Hierarchy& hierarchy, const Order& order, const Ind
   s.triangles.resize(segment_of.size());
   for (std::uint32_t t = 0; t < segment_of.size(); ++t) s.triangles[next[rank[segment_of[t]]]++] = t;
   return s;
-}
-
-// The constant step of the offsets, or 0 when they do not have one.
-std::uint32_t constant_step(const Indices& offsets) {
-  if (offsets.size() < 2) return 0;
-  const std::uint32_t step = offsets[1] - offsets[0];
-  for (std::size_t i = 1; i + 1 < offsets.size(); ++i) {
-    if (offsets[i + 1] - offsets[i] != step) return 0;
-  }
-  return step;
 }
 
 struct StoredRadii {
@@ -356,7 +347,8 @@ TrunkArrays make_trunk_arrays(const Mesh& mesh, const TrunkMesh& trunk, const Hi
   store_lines(segments, hierarchy, order, radii, kind, out.trunk);
   if (!parts.lines) out.trunk.lines = {}, out.trunk.line_vertices = {};
   store_triangles(mesh, trunk, segments, vertices, parts, out.trunk);
-  if (out.segment_factor == 0) out.trunk.first_triangle = std::move(segments.first_triangle);
+  if (out.segment_factor == 0 && !segments.child.empty())
+    out.trunk.first_triangle = std::move(segments.first_triangle);
 
   // What a reader will rebuild, in its own arithmetic: the bounds contain those very floats.
   std::vector<Float3> positions(vectors.size());
@@ -377,7 +369,7 @@ TrunkArrays make_trunk_arrays(const Mesh& mesh, const TrunkMesh& trunk, const Hi
   out.roots = order.roots;
   out.monotone = radii.monotone && !radii.radii.empty();
   out.ring_size = constant_step(vertices.first);
-  if (out.ring_size == 0) out.hierarchy.first_vector = vertices.first;
+  if (out.ring_size == 0 && !radii.radii.empty()) out.hierarchy.first_vector = vertices.first;
   out.hierarchy.radii = std::move(radii.radii);
   out.hierarchy.vectors = std::move(vectors);
   return out;

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# The main job on the samples: grow (stands in for an artist's export), prepare, look inside, draw. Called by ./run demo.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+bin=$PWD/build/release/bin
+out=out
+samples=samples/trees.txt
+mkdir -p "$out"
+
+step() { printf '   %-10s %s\n' "$1" "$2"; }
+
+while read -r name arguments; do
+  [ -n "$name" ] && [ "${name#\#}" = "$name" ] || continue
+  printf '== %s\n' "$name"
+  # shellcheck disable=SC2086  # the arguments of a sample are several words
+  "$bin/treegrow" $arguments -o "$out/$name.glb" --truth "$out/$name.truth.json" -q
+  step treegrow "$out/$name.glb"
+  "$bin/treeprep" "$out/$name.glb" -o "$out/$name.stree" --report "$out/$name.prep.json" --html "$out/$name.prep.html" -q
+  step treeprep "$out/$name.stree, $out/$name.prep.html"
+  "$bin/treedump" "$out/$name.stree" --verify -q
+  "$bin/treedump" "$out/$name.stree" --hierarchy >"$out/$name.hierarchy.json"
+  "$bin/treedump" "$out/$name.stree" >"$out/$name.txt"
+  step treedump "verified; $out/$name.txt"
+  "$bin/treeplay" "$out/$name.stree" --headless --size 640x720 --frames "$out/$name.png" --report "$out/$name.play.json" -q
+  "$bin/treeplay" "$out/$name.stree" --headless --size 640x720 --show skeleton --frames "$out/$name.skeleton.png" -q
+  step treeplay "$out/$name.png, $out/$name.skeleton.png"
+done <"$samples"
+
+python3 samples/demo_page.py "$out" "$samples" >"$out/index.html"
+printf '\nOpen %s/index.html: every tree, how exactly its hierarchy was recovered, and how long each step took.\n' "$out"

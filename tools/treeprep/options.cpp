@@ -1,0 +1,97 @@
+#include "tools/treeprep/options.h"
+
+#include "tools/treeprep/parts.h"
+#include "tools/treeprep/run.h"
+
+#include <map>
+
+#include <CLI/CLI.hpp>
+
+namespace copse::treeprep {
+
+ToolInfo info() {
+  return {
+      .name = "treeprep",
+      .summary =
+          "Turns the mesh of a tree into a .tree (static) or .stree (able to move) file: finds trunk and "
+          "leaves, recovers the hierarchy of rings, groups the leaves, and reports how exact it was.",
+      .examples =
+          {{"treeprep oak.glb -o oak.stree --html oak.html", "prepare one tree and look at what was found"},
+           {"treeprep pine.obj.gz -o pine.tree --up z --scale 0.01 --trunk '*bark*' --omit lines",
+            "a mesh in centimetres, Z up, with its materials named, without the lines for distant views"}},
+      .limits = {}};
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("INPUT", options.inputs,
+                 "the mesh: OBJ, PLY, OFF, STL, glTF or GLB, gzipped or not; several make one tree")
+      ->required()
+      ->type_name("FILE...");
+  app.add_option("-o,--output", options.output, "the tree: NAME.tree (static) or NAME.stree (able to move)")
+      ->required()
+      ->type_name("FILE");
+
+  CLI::Option_group* mesh = app.add_option_group("Reading the mesh");
+  mesh->add_option("--up", options.up, "the axis of the mesh that points up")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, UpAxis>{{"y", UpAxis::y}, {"z", UpAxis::z}}))
+      ->default_str("y");
+  mesh->add_option("--scale", options.scale, "metres a unit of the mesh: 0.01 for centimetres")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  mesh->add_option(
+          "--weld", options.weld,
+          "positions closer than this share of the bounding box's diagonal are one (default: far below the "
+          "shortest edges)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("EPS");
+  mesh->add_flag("--strict", options.strict,
+                 "refuse what breaks the thesis' model rules, naming every breach");
+
+  CLI::Option_group* parts = app.add_option_group("Trunk and leaves");
+  parts
+      ->add_option("--trunk", options.trunk_patterns,
+                   "globs over material, object and group names: these are trunk")
+      ->delimiter(',')
+      ->type_name("PATTERN,...");
+  parts
+      ->add_option("--leaf", options.leaf_patterns,
+                   "globs over material, object and group names: these are leaves")
+      ->delimiter(',')
+      ->type_name("PATTERN,...");
+  parts
+      ->add_option("--skeleton", options.skeleton,
+                   "how the hierarchy is recovered: from rings, from the surface, or as fits")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Skeleton>{
+          {"auto", Skeleton::automatic}, {"rings", Skeleton::rings}, {"surface", Skeleton::surface}}))
+      ->default_str("auto");
+  parts
+      ->add_option("--max-leaf-groups", options.max_leaf_groups,
+                   "merge the smallest leaf groups until there are at most N")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  parts
+      ->add_option("--leaf-order", options.leaf_order,
+                   "order of the leaves in a group: by distance from its centre or "
+                   "from its terminal radius, or at random")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, LeafOrder>{
+          {"group", LeafOrder::group}, {"terminal", LeafOrder::terminal}, {"random", LeafOrder::random}}))
+      ->default_str("group");
+
+  std::string names;
+  for (const PartName& part : part_names()) names += std::string("\n") + part.name + ": " + part.what;
+  CLI::Option_group* output = app.add_option_group("What is written");
+  output->add_option("--omit", options.omit, "leave out what the scene does not need:" + names)
+      ->delimiter(',')
+      ->type_name("PART,...");
+  output->add_option("--only", options.only, "leave out every optional part but these")
+      ->delimiter(',')
+      ->type_name("PART,...");
+  output
+      ->add_option("--compress", options.encoding,
+                   "how sections are stored: none (mapped in place) or zstd (small)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Encoding>{{"none", Encoding::raw}, {"zstd", Encoding::zstd}}))
+      ->default_str("none");
+}
+
+}  // namespace copse::treeprep

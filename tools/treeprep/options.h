@@ -1,0 +1,33 @@
+// The command line of treeprep.
+#pragma once
+
+#include "lib/analysis/trunk/recover.h"
+#include "lib/formats/mesh.h"
+#include "lib/formats/tree_file.h"
+#include "tools/common/tool.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace copse::treeprep {
+
+struct Options {
+  std::vector<std::filesystem::path> inputs;  // several meshes make one tree
+  std::filesystem::path output;
+  UpAxis up = UpAxis::y;
+  double scale = 1;
+  std::vector<std::string> trunk_patterns, leaf_patterns;
+  bool strict = false;
+  Skeleton skeleton = Skeleton::automatic;
+  std::uint32_t max_leaf_groups = 0;  // 0: as many as there are terminal radii with leaves
+  LeafOrder leaf_order = LeafOrder::group;
+  double weld = 0;  // relative to the bounding box's diagonal; 0: the default of lib/analysis/trunk
+  std::vector<std::string> omit, only;  // names of parts.h
+  Encoding encoding = Encoding::raw;
+};
+
+void add_options(CLI::App& app, Options& options);
+
+}  // namespace copse::treeprep
