@@ -1,0 +1,17 @@
+// Curves as an inline SVG: one chart for all curves that share both axes.
+#pragma once
+
+#include "lib/formats/report.h"
+
+#include <span>
+#include <string>
+
+namespace copse {
+
+// A chart of 720 by 380 units that scales with the page. An axis is logarithmic when all its values are
+// positive and they span more than a factor of 50. Curves whose points carry no labels are lines; labelled
+// points stand alone, with as many labels as fit. Colours and fonts come from the page's style sheet; series
+// differ by shape too. Points that are not finite are left out. Empty when none is left.
+std::string chart_svg(std::span<const Curve> curves, const std::string& id);
+
+}  // namespace copse
