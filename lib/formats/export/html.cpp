@@ -25,7 +25,7 @@ std::string base_name(const std::string& path) {
 std::string names_of(const std::vector<FileRecord>& files) {
   if (files.empty()) return {};
   std::string text = base_name(files.front().path);
-  if (files.size() == 2) text += " and " + base_name(files[1].path);
+  if (files.size() == 2) text += fmt::format(" and {}", base_name(files[1].path));
   if (files.size() > 2) text += fmt::format(" and {} more", files.size() - 1);
   return text;
 }
@@ -73,9 +73,10 @@ void add_key_figures(std::string& out, const Report& report) {
   }
   if (!report.errors.empty()) {
     const ErrorRecord& e = report.errors.front();
-    const std::string unit = e.unit.empty() || e.unit == "ratio" ? "" : " " + escape_html(e.unit);
+    const std::string unit =
+        e.unit.empty() || e.unit == "ratio" ? "" : fmt::format(" {}", escape_html(e.unit));
     add_figure(out, escape_html(e.name), show_number(e.value) + unit,
-               e.max ? "at most " + show_number(*e.max) + unit : std::string());
+               e.max ? fmt::format("at most {}{}", show_number(*e.max), unit) : std::string());
   }
   out += "</dl>\n";
 }
@@ -83,7 +84,7 @@ void add_key_figures(std::string& out, const Report& report) {
 void add_warnings(std::string& out, const Report& report) {
   if (report.warnings.empty()) return;
   out += "<section class=\"warnings\"><h2>Warnings</h2><ul>";
-  for (const std::string& warning : report.warnings) out += "<li>" + escape_html(warning) + "</li>";
+  for (const std::string& warning : report.warnings) out += fmt::format("<li>{}</li>", escape_html(warning));
   out += "</ul></section>\n";
 }
 
@@ -294,7 +295,7 @@ std::string to_html(const Report& report) {
       subject.empty() ? "" : escape_html(subject) + " · ", tool, k_page_style, tool,
       escape_html(report.version), heading);
   if (!report.outputs.empty())
-    out += "<p class=\"into\">made " + escape_html(names_of(report.outputs)) + "</p>";
+    out += fmt::format("<p class=\"into\">made {}</p>", escape_html(names_of(report.outputs)));
   out += "</header>\n<main>";
   add_key_figures(out, report);
   add_warnings(out, report);
