@@ -135,17 +135,26 @@ struct Tree {
   RadiusHierarchy hierarchy;  // .stree only
   std::string provenance;     // JSON: tool, version, options, source file and its hash
 
-  std::size_t segment_count() const { return trunk.diameters.size(); }
-  std::size_t leaf_count() const { return leaves.centres.size(); }
+  // Taken from whichever per-segment (per-leaf) array is there: each of them may have been left out.
+  std::size_t segment_count() const;
+  std::size_t leaf_count() const;
   std::size_t radius_count() const { return hierarchy.radii.size(); }
+  // Where the run of each begins; for index = count, where the last one ends. All 0 when there is nothing to
+  // divide: what was left out reads as empty runs.
   std::size_t first_vector_of(std::size_t radius) const {
-    return header.ring_size ? radius * header.ring_size : hierarchy.first_vector[radius];
+    return offset(header.ring_size, hierarchy.first_vector, radius);
   }
   std::size_t first_triangle_of_segment(std::size_t segment) const {
-    return header.segment_factor ? segment * header.segment_factor : trunk.first_triangle[segment];
+    return offset(header.segment_factor, trunk.first_triangle, segment);
   }
   std::size_t first_triangle_of_leaf(std::size_t leaf) const {
-    return header.leaf_factor ? leaf * header.leaf_factor : leaves.first_triangle[leaf];
+    return offset(header.leaf_factor, leaves.first_triangle, leaf);
+  }
+
+ private:
+  static std::size_t offset(std::uint32_t constant, const Array<std::uint32_t>& offsets, std::size_t i) {
+    if (constant != 0) return i * constant;
+    return offsets.empty() ? 0 : offsets[i];
   }
 };
 

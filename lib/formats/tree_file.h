@@ -4,8 +4,11 @@
 // its section and offset. Opening maps the file and reads the header and the section table only.
 #pragma once
 
+#include "lib/formats/container.h"
+#include "lib/formats/omit.h"
 #include "lib/formats/result.h"
 #include "lib/formats/tree.h"
+#include "lib/formats/tree_header.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -16,18 +19,6 @@
 
 namespace copse {
 
-enum class Encoding : std::uint32_t { raw = 0, zstd = 1 };
-
-struct SectionInfo {
-  std::string name;  // four characters
-  std::uint32_t version = 0;
-  Encoding encoding = Encoding::raw;
-  std::uint64_t offset = 0;       // in the file; a multiple of 64
-  std::uint64_t stored_size = 0;  // bytes in the file
-  std::uint64_t decoded_size = 0;
-  std::uint64_t checksum = 0;  // XXH3-64 of the stored bytes
-};
-
 // How much is checked before an array is handed out.
 enum class Trust {
   nothing,    // checksums and every invariant: whatever is returned can be used without a further check
@@ -37,12 +28,13 @@ enum class Trust {
 
 struct WriteOptions {
   Encoding encoding = Encoding::raw;
-  // Sections (four-character names) left out on purpose; they are listed in the file, and treedump shows
-  // them.
-  std::vector<std::string> omit;
+  // Sections (four-character names, see omissible_sections()) left out on purpose, and with them what is
+  // meaningless without them. The file lists them with what they saved, and treedump shows it.
+  std::vector<std::string> omit = {};
 };
 
-// The bytes of the file. Deterministic: the same tree and options give the same bytes.
+// The bytes of the file. Deterministic: the same tree and options give the same bytes. A tree whose arrays do
+// not fit together is a bug of the caller and refused as such; elements are not checked (check_tree does).
 Result<std::vector<std::uint8_t>> encode_tree(const Tree& tree, const WriteOptions& options = {});
 
 class TreeFile {
@@ -55,7 +47,9 @@ class TreeFile {
 
   const TreeHeader& header() const;
   const std::vector<SectionInfo>& sections() const;
+  const TreeCounts& counts() const;                 // of elements, present or left out by choice
   const std::vector<std::string>& omitted() const;  // what the writer left out on purpose
+  const std::vector<Omitted>& omissions() const;    // the same, with the bytes that it saved
   bool has(std::string_view section) const;
   std::uint64_t size() const;  // bytes of the file
 
@@ -63,6 +57,10 @@ class TreeFile {
   // decoded.
   Result<Tree> load() const;
   Result<Tree> load(const std::vector<std::string>& only) const;
+  // The decoded bytes of any section, known to this version or not. An error when there is none.
+  Result<Array<std::uint8_t>> section(std::string_view name) const;
+  // The sections as stored, to copy them into a file with more of them (ContainerWriter).
+  const Container& container() const;
 
   // All checksums and all invariants of digest 000 section 9 (treedump): every failure, not only the first.
   std::vector<std::string> verify() const;
@@ -70,6 +68,8 @@ class TreeFile {
  private:
   struct Impl;
   explicit TreeFile(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  static Result<TreeFile> from_container(Container container, Trust trust);
+  Result<Tree> load_named(const std::vector<std::string>* only) const;
   std::shared_ptr<const Impl> impl_;
 };
 

@@ -1,0 +1,110 @@
+#include "lib/formats/check_tree.h"
+
+#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_sections.h"
+
+#include <fmt/format.h>
+
+namespace copse {
+
+std::string to_text(const Finding& f) {
+  if (f.element == Finding::k_no_element) return f.section + ": " + f.what;
+  return fmt::format("{}[{}]: {}", f.section, f.element, f.what);
+}
+
+void Findings::add(std::string_view section, std::size_t element, std::string_view kind,
+                   const std::string& detail) {
+  std::size_t& count = counts_[{std::string(section), std::string(kind)}];
+  if (++count > k_listed) return;
+  std::string what(kind);
+  if (!detail.empty()) what += ": " + detail;
+  listed_.push_back({std::string(section), element, std::move(what)});
+}
+
+std::vector<std::string> Findings::lines() const {
+  std::vector<std::string> lines;
+  for (const Finding& f : listed_) lines.push_back(to_text(f));
+  for (const auto& [kind, count] : counts_) {
+    if (count > k_listed) lines.push_back(fmt::format("{}: {}: {} in all", kind.first, kind.second, count));
+  }
+  return lines;
+}
+
+namespace {
+
+constexpr std::uint64_t k_max_count = k_none - 1;  // indices are 32 bits, and the last value means "none"
+
+struct SizeCheck {
+  Findings& findings;
+
+  void parallel(std::string_view section, std::size_t size, std::size_t wanted, std::string_view of) const {
+    if (size != 0 && size != wanted) {
+      findings.add(section, "not parallel", fmt::format("{} entries for {} {}", size, wanted, of));
+    }
+  }
+  // Runs of elements: all of one length, or offsets.
+  void runs(std::string_view section, std::uint32_t constant, const Array<std::uint32_t>& offsets,
+            std::size_t owners, std::size_t elements) const {
+    if (constant != 0) {
+      if (elements == 0)
+        findings.add(section, "a constant length of runs that are empty", fmt::format("{}", constant));
+      if (!offsets.empty()) findings.add(section, "offsets beside a constant", fmt::format("{}", constant));
+      if (elements != std::uint64_t{constant} * owners) {
+        findings.add(section, "the constant does not fit",
+                     fmt::format("{} elements in {} runs of {}", elements, owners, constant));
+      }
+      return;
+    }
+    if (elements == 0 && offsets.empty()) return;
+    if (offsets.size() != owners + 1) {
+      findings.add(section, "not parallel", fmt::format("{} offsets for {} runs", offsets.size(), owners));
+    } else if (offsets[0] != 0 || offsets[owners] != elements) {
+      findings.add(section, "offsets do not span the elements",
+                   fmt::format("{} to {} of {}", offsets[0], offsets[owners], elements));
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<std::string> check_sizes(const Tree& tree) {
+  Findings findings;
+  const SizeCheck check{findings};
+  const TreeHeader& h = tree.header;
+  const Trunk& t = tree.trunk;
+  const Leaves& l = tree.leaves;
+  const bool sensitive = h.kind == TreeKind::sensitive;
+  if (!sensitive && h.kind != TreeKind::still) findings.add("HEAD", "unknown kind");
+  if (sensitive && !(t.vertices.empty() && t.line_vertices.empty())) {
+    findings.add("TVTX", "an .stree carries no trunk vertices: they are rebuilt");
+  }
+  const RadiusHierarchy& r = tree.hierarchy;
+  if (!sensitive && !(r.radii.empty() && r.vectors.empty() && r.first_vector.empty())) {
+    findings.add("RADI", "a .tree carries no hierarchy");
+  }
+  for_each_array(tree, {.header = h, .counts = {}},
+                 [&](std::string_view name, const auto& array, std::uint64_t, Presence) {
+                   if (array.size() > k_max_count) findings.add(name, "too many elements for 32-bit indices");
+                 });
+  const std::size_t segments = tree.segment_count(), leaves = tree.leaf_count();
+  check.parallel("TLIN", t.lines.size(), segments, "segments");
+  check.parallel("TACC", t.accumulated_lengths.size(), segments, "segments");
+  check.parallel("TMAT", t.materials.size(), t.triangles.size(), "triangles");
+  check.runs("TFIR", h.segment_factor, t.first_triangle, segments, t.triangles.size());
+  check.parallel("LORD", l.order.size(), leaves, "leaves");
+  check.parallel("LMAT", l.materials.size(), leaves, "leaves");
+  check.runs("LFIR", h.leaf_factor, l.first_triangle, leaves, l.triangles.size());
+  if (sensitive) check.runs("RFIR", h.ring_size, r.first_vector, r.radii.size(), r.vectors.size());
+  return findings.lines();
+}
+
+void check_elements(const Tree&, const Head&, Findings&) {}
+
+std::vector<std::string> check_tree(const Tree& tree) {
+  if (auto wrong = check_sizes(tree); !wrong.empty()) return wrong;
+  Findings findings;
+  check_elements(tree, {tree.header, count(tree), tree.trunk.material, tree.leaves.material}, findings);
+  return findings.lines();
+}
+
+}  // namespace copse

@@ -1,0 +1,59 @@
+// The parts of check_tree (tree_file.h): what a loader needs of it, and how findings are collected.
+#pragma once
+
+#include "lib/formats/tree.h"
+#include "lib/formats/tree_header.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace copse {
+
+// One thing that is wrong, with the section and, if it is about one, the element.
+struct Finding {
+  std::string section;
+  std::size_t element = static_cast<std::size_t>(-1);  // k_no_element: about none
+  std::string what;
+  static constexpr auto k_no_element = static_cast<std::size_t>(-1);
+};
+
+// "LGRP[12]: what", or "LGRP: what".
+std::string to_text(const Finding& finding);
+
+// Collects findings. Of each kind (section and kind of failure) the first k_listed are kept, the rest are
+// counted: a file with a million bad indices gives a short list that still says a million.
+class Findings {
+ public:
+  static constexpr std::size_t k_listed = 8;
+
+  // `kind` is the same for all failures of a kind: "vertex index out of range".
+  void add(std::string_view section, std::size_t element, std::string_view kind, const std::string& detail);
+  void add(std::string_view section, std::string_view kind, const std::string& detail = {}) {
+    add(section, Finding::k_no_element, kind, detail);
+  }
+  bool empty() const { return listed_.empty(); }
+  const std::vector<Finding>& listed() const { return listed_; }
+  // What is listed, then one line for each kind of which more were found: "LGRP: kind: 1000000 in all".
+  std::vector<std::string> lines() const;
+
+ private:
+  std::vector<Finding> listed_;
+  std::map<std::pair<std::string, std::string>, std::size_t, std::less<>> counts_;
+};
+
+// Whether the arrays fit together: parallel arrays, offset tables, what a kind of tree may carry. All of it
+// costs O(1).
+std::vector<std::string> check_sizes(const Tree& tree);
+
+// Every element of what is there. `head` says how many elements each array has in the file, loaded or not, so
+// that a part of a tree can be checked. Precondition: the arrays that are there have these sizes.
+void check_elements(const Tree& tree, const Head& head, Findings& findings);
+
+inline constexpr std::size_t k_omitted_record = 16;  // a name, 4 zero bytes, the bytes saved
+inline constexpr std::size_t k_omitted_bytes = 8;
+
+}  // namespace copse
