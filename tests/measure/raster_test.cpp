@@ -46,7 +46,7 @@ TEST(Raster, FramesABoxFromAnySide) {
     const OrthographicView v = frame_box(box, azimuth, 100, 200);
     for (int corner = 0; corner < 8; ++corner) {
       const Double3 p = v.project({corner & 1 ? 1.0 : -1.0, corner & 2 ? 8.0 : 0.0, corner & 4 ? 3.0 : -3.0});
-      EXPECT_GE(p.x, 0), EXPECT_LE(p.x, 100), EXPECT_GE(p.y, 0), EXPECT_LE(p.y, 200);
+      EXPECT_TRUE(p.x >= 0 && p.x <= 100 && p.y >= 0 && p.y <= 200) << p.x << " " << p.y;
     }
   }
 }

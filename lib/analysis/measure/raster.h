@@ -14,7 +14,7 @@ namespace copse {
 // the picture; a pixel is `pixel` wide (same unit as the positions, > 0). Row 0 is the top.
 struct OrthographicView {
   Double3 right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};
-  Double3 centre;
+  Double3 centre{};
   double pixel = 1;
   int width = 0, height = 0;
 
