@@ -1,0 +1,177 @@
+#include "lib/runtime/mip_chain.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+namespace copse {
+
+namespace {
+
+// Linear light, colour premultiplied by alpha: what may be averaged.
+struct Texel {
+  float r = 0, g = 0, b = 0, a = 0;
+};
+
+struct Level {
+  int width = 0, height = 0;
+  std::vector<Texel> texels;
+};
+
+float to_linear(float s) {
+  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+}
+
+std::uint8_t to_srgb_byte(float l) {
+  const float s = l <= 0.0031308f ? 12.92f * l : 1.055f * std::pow(l, 1 / 2.4f) - 0.055f;
+  return static_cast<std::uint8_t>(std::lround(std::clamp(s, 0.0f, 1.0f) * 255));
+}
+
+const std::array<float, 256>& linear_of_byte() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> t{};
+    for (std::size_t i = 0; i < t.size(); ++i) t[i] = to_linear(static_cast<float>(i) / 255);
+    return t;
+  }();
+  return table;
+}
+
+Level decode(std::span<const std::uint8_t> rgba, int width, int height) {
+  const std::array<float, 256>& linear = linear_of_byte();
+  Level level{width, height, std::vector<Texel>(rgba.size() / 4)};
+  for (std::size_t i = 0; i < level.texels.size(); ++i) {
+    const std::uint8_t* p = &rgba[4 * i];
+    const float a = static_cast<float>(p[3]) / 255;
+    level.texels[i] = {linear[p[0]] * a, linear[p[1]] * a, linear[p[2]] * a, a};
+  }
+  return level;
+}
+
+// The source texels that one target texel covers along one axis, with their shares (they sum to 1).
+struct Footprint {
+  int first = 0;
+  int count = 0;
+  std::array<float, 4> share{};
+};
+
+std::vector<Footprint> footprints(int source, int target) {
+  std::vector<Footprint> all(static_cast<std::size_t>(target));
+  const double ratio = static_cast<double>(source) / target;
+  for (int i = 0; i < target; ++i) {
+    Footprint& f = all[static_cast<std::size_t>(i)];
+    const double from = i * ratio, to = (i + 1) * ratio;
+    f.first = static_cast<int>(std::floor(from));
+    for (int s = f.first; s < source && s < to && f.count < 4; ++s) {
+      const double overlap = std::min<double>(to, s + 1) - std::max<double>(from, s);
+      f.share[static_cast<std::size_t>(f.count++)] = static_cast<float>(overlap / ratio);
+    }
+  }
+  return all;
+}
+
+Level halve(const Level& source) {
+  Level target{std::max(1, source.width / 2), std::max(1, source.height / 2), {}};
+  const std::vector<Footprint> across = footprints(source.width, target.width);
+  const std::vector<Footprint> down = footprints(source.height, target.height);
+  target.texels.reserve(across.size() * down.size());
+  for (const Footprint& fy : down) {
+    for (const Footprint& fx : across) {
+      Texel sum;
+      for (int y = 0; y < fy.count; ++y) {
+        const std::size_t row =
+            static_cast<std::size_t>(fy.first + y) * static_cast<std::size_t>(source.width);
+        for (int x = 0; x < fx.count; ++x) {
+          const Texel& t = source.texels[row + static_cast<std::size_t>(fx.first + x)];
+          const float w = fy.share[static_cast<std::size_t>(y)] * fx.share[static_cast<std::size_t>(x)];
+          sum.r += w * t.r, sum.g += w * t.g, sum.b += w * t.b, sum.a += w * t.a;
+        }
+      }
+      target.texels.push_back(sum);
+    }
+  }
+  return target;
+}
+
+double coverage(const Level& level, float cutoff) {
+  const auto passing =
+      std::count_if(level.texels.begin(), level.texels.end(), [&](const Texel& t) { return t.a >= cutoff; });
+  return level.texels.empty() ? 1 : static_cast<double>(passing) / static_cast<double>(level.texels.size());
+}
+
+// What alpha is to be multiplied by so that `share` of the level passes the test.
+float alpha_scale(const Level& level, float cutoff, double share) {
+  const double n = static_cast<double>(level.texels.size());
+  const auto passing = static_cast<std::size_t>(std::lround(share * n));
+  if (passing == 0) return 1;
+  std::vector<float> alpha;
+  alpha.reserve(level.texels.size());
+  for (const Texel& t : level.texels) alpha.push_back(t.a);
+  const auto last = alpha.begin() + static_cast<std::ptrdiff_t>(passing - 1);
+  std::nth_element(alpha.begin(), last, alpha.end(), std::greater<>());
+  return *last > 0 ? cutoff / *last : 1;
+}
+
+std::uint8_t alpha_byte(float a) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(a, 0.0f, 1.0f) * 255));
+}
+
+// Rounded so that what passes the test as float passes as a byte.
+std::uint8_t tested_alpha_byte(float a, float cutoff) {
+  const std::uint8_t byte = alpha_byte(a);
+  return a >= cutoff && static_cast<float>(byte) / 255 < cutoff && byte < 255
+             ? static_cast<std::uint8_t>(byte + 1)
+             : byte;
+}
+
+// Straight sRGB colour; texels without alpha take the colour of the next smaller level.
+MipLevel encode(const Level& level, const MipLevel* smaller, float cutoff, float scale) {
+  MipLevel out{level.width, level.height, std::vector<std::uint8_t>(level.texels.size() * 4)};
+  for (std::size_t i = 0; i < level.texels.size(); ++i) {
+    const Texel& t = level.texels[i];
+    std::uint8_t* p = &out.rgba[4 * i];
+    if (t.a > 0) {
+      p[0] = to_srgb_byte(t.r / t.a), p[1] = to_srgb_byte(t.g / t.a), p[2] = to_srgb_byte(t.b / t.a);
+    } else if (smaller) {
+      const int x = static_cast<int>(i % static_cast<std::size_t>(level.width));
+      const int y = static_cast<int>(i / static_cast<std::size_t>(level.width));
+      const int sx = std::min(x / 2, smaller->width - 1), sy = std::min(y / 2, smaller->height - 1);
+      std::copy_n(&smaller->rgba[4 * static_cast<std::size_t>(sy * smaller->width + sx)], 3, p);
+    }
+    p[3] = tested_alpha_byte(t.a * scale, cutoff);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<MipLevel> mip_chain(std::span<const std::uint8_t> rgba, int width, int height,
+                                float alpha_cutoff) {
+  std::vector<Level> levels{decode(rgba, width, height)};
+  while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(halve(levels.back()));
+  const double share = coverage(levels.front(), alpha_cutoff);
+  std::vector<MipLevel> chain(levels.size());
+  for (std::size_t i = levels.size(); i-- > 0;) {
+    const bool tested = alpha_cutoff > 0 && i > 0;
+    const float scale = tested ? alpha_scale(levels[i], alpha_cutoff, share) : 1;
+    chain[i] =
+        encode(levels[i], i + 1 < levels.size() ? &chain[i + 1] : nullptr, tested ? alpha_cutoff : 0, scale);
+  }
+  // What can be seen keeps the source's bytes: decoding and encoding may be off by one.
+  for (std::size_t i = 0; i < rgba.size(); i += 4) {
+    if (rgba[i + 3]) std::copy_n(&rgba[i], 4, &chain.front().rgba[i]);
+  }
+  return chain;
+}
+
+double alpha_coverage(const MipLevel& level, float alpha_cutoff) {
+  if (alpha_cutoff <= 0 || level.rgba.empty()) return 1;
+  std::size_t passing = 0;
+  for (std::size_t i = 3; i < level.rgba.size(); i += 4) {
+    passing += static_cast<float>(level.rgba[i]) / 255 >= alpha_cutoff;
+  }
+  return 4.0 * static_cast<double>(passing) / static_cast<double>(level.rgba.size());
+}
+
+}  // namespace copse

@@ -1,0 +1,34 @@
+// How much of the sky each place in and round a tree sees, on a coarse grid: the soft light that makes a
+// crown look deep and a trunk look planted.
+//
+// The tree is taken as a cloud: each cell of the grid holds the projected area of the triangles in it, and a
+// ray of length s through it keeps exp(-s * density) of its light (Beer and Lambert). For every direction of
+// the upper half of a uniform sky the light is swept through the grid slab by slab; what arrives is kept as
+// the first two bands of spherical harmonics.
+#pragma once
+
+#include "lib/runtime/matrix.h"
+#include "lib/runtime/tree_geometry.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace copse {
+
+struct SkyLight {
+  std::array<std::size_t, 3> size{1, 1, 1};  // cells along x, y, z
+  Float3 corner;                             // the grid's lower corner
+  float cell = 1;                            // the side of a cell
+  // x fastest, then y, then z. The light that a white surface with unit normal n sends back, as a share of
+  // what it would send back facing an open sky: max(0, w + x n.x + y n.y + z n.z).
+  std::vector<Float4> cells{{0, 0.5f, 0, 0.5f}};
+};
+
+// `opacity` has one entry a range of the geometry: its material's alpha times its alpha coverage. The grid
+// covers the bounds and half their size on every side, `resolution` cells along its longest side.
+// O(triangles + resolution^3 * directions); deterministic.
+SkyLight make_sky_light(const TreeGeometry& geometry, std::span<const float> opacity,
+                        std::size_t resolution = 48);
+
+}  // namespace copse
