@@ -59,6 +59,9 @@ LeafArrays make_leaf_arrays(const Mesh& mesh, std::span<const std::uint32_t> lea
   std::vector<Float3> points(centres.size());
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = to_float(centres[i] - origin);
   out.leaves.centres = std::move(points);
+  for (const std::uint32_t t : sorted.triangle) {
+    for (const std::uint32_t v : mesh.triangles[t]) out.bounds.grow(to_float(mesh.positions[v] - origin));
+  }
   if (!parts.geometry) return out;
 
   CornerColumns columns(mesh, parts.normals, parts.texcoords);
@@ -72,7 +75,6 @@ LeafArrays make_leaf_arrays(const Mesh& mesh, std::span<const std::uint32_t> lea
       if (stored[v] == k_none) {
         stored[v] = static_cast<std::uint32_t>(vertices.size());
         vertices.push_back(to_float(mesh.positions[v] - origin));
-        out.bounds.grow(vertices.back());
       }
       triangles[i].vertex[c] = stored[v];
     }

@@ -18,8 +18,8 @@ struct LeafParts {
 };
 
 struct LeafArrays {
-  Leaves leaves;  // without groups, order and hierarchy
-  FloatBox bounds;
+  Leaves leaves;    // without groups, order and hierarchy
+  FloatBox bounds;  // of the leaves' vertices as stored, whether they are stored or not
   std::uint32_t leaf_factor = 0;
   std::uint64_t mixed_materials = 0;  // leaves whose triangles have several materials: the first one is kept
 };
