@@ -113,6 +113,24 @@ std::unexpected<Error> unexpected_arguments(const ToolInfo& info, const CLI::App
               see_help(info));
 }
 
+std::string joined(const std::vector<std::string>& values) {
+  std::string text;
+  for (const std::string& value : values) text += (text.empty() ? "" : ",") + value;
+  return text;
+}
+
+// The first option whose value is not what its type asks for; CLI11 does not say more than "could not
+// convert".
+std::string conversion_problem(const CLI::App& app, const CLI::ParseError& error) {
+  const std::string what = error.what();
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0 || what.find(option->get_name() + " = ") == std::string::npos) continue;
+    return fmt::format("{}: '{}' cannot be read as {}", option->get_name(), joined(option->results()),
+                       option->get_type_name());
+  }
+  return what;
+}
+
 // CLI11's messages, told as copse tells them.
 std::unexpected<Error> explain(const ToolInfo& info, const CLI::App& app, const Common& common,
                                const CLI::ParseError& error) {
@@ -130,13 +148,8 @@ std::unexpected<Error> explain(const ToolInfo& info, const CLI::App& app, const 
     if (what.starts_with(unknown)) what = fmt::format("there is no option '{}'", what.substr(unknown.size()));
     return fail(Fault::usage, config, what, "use the long names of the options; " + see_help(info));
   }
-  return fail(Fault::usage, "", error.what(), see_help(info));
-}
-
-std::string joined(const std::vector<std::string>& values) {
-  std::string text;
-  for (const std::string& value : values) text += (text.empty() ? "" : ",") + value;
-  return text;
+  const bool conversion = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr;
+  return fail(Fault::usage, "", conversion ? conversion_problem(app, error) : error.what(), see_help(info));
 }
 
 std::vector<std::pair<std::string, std::string>> options_for_report(const CLI::App& app,

@@ -27,10 +27,30 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
+// The words of a command; blanks inside quotes do not part it.
+std::vector<std::string> command_words(std::string_view text) {
+  std::vector<std::string> words(1);
+  char quote = 0;
+  for (const char c : text) {
+    if (quote == 0 && c == ' ') {
+      if (!words.back().empty()) words.emplace_back();
+      continue;
+    }
+    if (quote == 0 && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (c == quote) {
+      quote = 0;
+    }
+    words.back() += c;
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
 // Lines of at most `width` columns without line breaks; a word that is longer stands alone.
-std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
+std::vector<std::string> fill_lines(std::vector<std::string> words, std::size_t width) {
   std::vector<std::string> lines;
-  for (std::string& word : words_of(text)) {
+  for (std::string& word : words) {
     if (!lines.empty() && lines.back().size() + 1 + word.size() <= width) {
       lines.back() += " " + word;
     } else {
@@ -38,6 +58,10 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
     }
   }
   return lines;
+}
+
+std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
+  return fill_lines(words_of(text), width);
 }
 
 // CLI11 puts the checks of an option behind its type: "TEXT:{auto,always}". A closed set says more than the
@@ -102,7 +126,7 @@ void add_entry(std::string& out, const std::string& label, const std::string& de
 // An example that is too long for a line goes on as a shell would have it.
 void add_example(std::string& out, const std::string& command, const std::string& meaning,
                  std::size_t width) {
-  const std::vector<std::string> lines = wrapped(command, width - 8);
+  const std::vector<std::string> lines = fill_lines(command_words(command), width - 8);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     out += (i == 0 ? "  " : "      ") + lines[i] + (i + 1 < lines.size() ? " \\\n" : "\n");
   }
