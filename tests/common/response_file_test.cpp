@@ -17,7 +17,7 @@ using Words = std::vector<std::string>;
 class ResponseFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("copse_response_" + std::to_string(::getpid()));
+    folder_ = fs::temp_directory_path() / (std::string("copse_response_") + std::to_string(::getpid()));
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
