@@ -23,8 +23,8 @@ struct TreeGroups {
 struct AssembleOptions {
   TreeKind kind = TreeKind::sensitive;
   LeafOrder leaf_order = LeafOrder::group;
-  TrunkParts trunk;
-  LeafParts leaves;
+  TrunkParts trunk{};
+  LeafParts leaves{};
 };
 
 struct AssembleInput {
