@@ -19,7 +19,7 @@ const std::vector<std::uint32_t> k_leaf_of{k_none, 1, 0, 0, 1};
 const std::vector<Double3> k_centres{{7, 3, 0}, {4, 1, 0}};
 
 TEST(LeafArrays, PutTrianglesLeafAfterLeaf) {
-  const LeafArrays a = make_leaf_arrays(mesh_of_leaves(), k_leaf_of, k_centres, {}, {});
+  const LeafArrays a = make_leaf_arrays(mesh_of_leaves(), k_leaf_of, k_centres, {});
   EXPECT_EQ(a.leaf_factor, 2u);
   EXPECT_TRUE(a.leaves.first_triangle.empty());
   ASSERT_EQ(a.leaves.triangles.size(), 4u);
@@ -31,8 +31,8 @@ TEST(LeafArrays, PutTrianglesLeafAfterLeaf) {
 }
 
 TEST(LeafArrays, StoreOffsetsWhereLeavesDiffer) {
-  const LeafArrays a = make_leaf_arrays(mesh_of_leaves(), std::vector<std::uint32_t>{k_none, 1, 0, 0, k_none},
-                                        k_centres, {}, {});
+  const LeafArrays a =
+      make_leaf_arrays(mesh_of_leaves(), std::vector<std::uint32_t>{k_none, 1, 0, 0, k_none}, k_centres, {});
   EXPECT_EQ(a.leaf_factor, 0u);
   EXPECT_EQ(a.leaves.first_triangle.to_vector(), (std::vector<std::uint32_t>{0, 2, 3}));
 }
@@ -40,20 +40,19 @@ TEST(LeafArrays, StoreOffsetsWhereLeavesDiffer) {
 TEST(LeafArrays, CountLeavesOfSeveralMaterials) {
   Mesh mesh = mesh_of_leaves();
   mesh.part_of[4] = 0;
-  const LeafArrays a = make_leaf_arrays(mesh, k_leaf_of, k_centres, {}, {});
+  const LeafArrays a = make_leaf_arrays(mesh, k_leaf_of, k_centres, {});
   EXPECT_EQ(a.mixed_materials, 1u);
   EXPECT_EQ(a.leaves.material, 1u);
 }
 
-TEST(LeafArrays, KeepOnlyCentresWithoutGeometry) {
-  const LeafArrays a =
-      make_leaf_arrays(mesh_of_leaves(), k_leaf_of, k_centres, {1, 1, 1}, {.geometry = false});
-  EXPECT_TRUE(a.leaves.triangles.empty());
+TEST(LeafArrays, AreRelativeToTheOrigin) {
+  const LeafArrays a = make_leaf_arrays(mesh_of_leaves(), k_leaf_of, k_centres, {1, 1, 1});
   EXPECT_EQ(a.leaves.centres[0], (Float3{6, 2, -1}));
+  EXPECT_EQ(a.bounds.min.x, 2);
 }
 
 TEST(LeafArrays, OfATreeWithoutLeavesAreEmpty) {
-  const LeafArrays a = make_leaf_arrays(mesh_of_leaves(), std::vector<std::uint32_t>(5, k_none), {}, {}, {});
+  const LeafArrays a = make_leaf_arrays(mesh_of_leaves(), std::vector<std::uint32_t>(5, k_none), {}, {});
   EXPECT_TRUE(a.leaves.triangles.empty());
   EXPECT_TRUE(a.leaves.first_triangle.empty());
   EXPECT_TRUE(a.bounds.empty());

@@ -11,7 +11,7 @@ namespace copse {
 namespace {
 
 TrunkArrays arrays_of(const Tube& tube, TreeKind kind = TreeKind::sensitive, const Double3& origin = {}) {
-  return make_trunk_arrays(tube.mesh, tube.trunk, tube.hierarchy, kind, origin, {}, {});
+  return make_trunk_arrays(tube.mesh, tube.trunk, tube.hierarchy, kind, origin, {});
 }
 
 Tree tree_of(TrunkArrays arrays, TreeKind kind) {
@@ -151,7 +151,7 @@ TEST(TrunkArrays, NoticeAChildThickerThanItsParent) {
 TEST(TrunkArrays, HangLeafGroupsOnTerminalRadii) {
   const Tube tube = forked_tube();
   const TrunkArrays a = make_trunk_arrays(tube.mesh, tube.trunk, tube.hierarchy, TreeKind::sensitive, {},
-                                          {k_none, k_none, k_none, k_none, 0}, {});
+                                          {k_none, k_none, k_none, k_none, 0});
   EXPECT_EQ(a.hierarchy.radii[4].first_child, 0u);
   EXPECT_EQ(a.hierarchy.radii[4].child_count, 1u);
   EXPECT_EQ(a.hierarchy.radii[2].child_count, 0u);

@@ -1,40 +1,33 @@
-// What a tree file is made of, by the names that --omit and --only take; treedump prints the same names.
+// What --omit and --only take: parts of a tree by a telling name, or sections by their four letters
+// (docs/formats.md).
 #pragma once
 
 #include "lib/formats/result.h"
-#include "lib/formats/tree.h"
 
 #include <string>
 #include <vector>
 
 namespace copse::treeprep {
 
-// A part that a scene may do without.
+// A part that a scene may do without, and the sections that it is stored in.
 struct PartName {
-  const char* name;
-  const char* what;
+  std::string name;
+  std::string what;
+  std::vector<std::string> sections;
 };
 
 const std::vector<PartName>& part_names();
 
-// What is kept of a tree.
-struct Wanted {
-  bool lines = true;  // segments' lines: only needed by programs that draw or move with them
-  bool trunk_normals = true;
-  bool trunk_texcoords = true;
-  bool leaves = true;         // all of the leaves
-  bool leaf_geometry = true;  // their triangles; without it groups and centres remain
-  bool leaf_normals = true;
-  bool leaf_texcoords = true;
-  bool leaf_groups = true;
-  bool group_hierarchy = true;
-  bool textures = true;
-
-  std::vector<std::string> left_out() const;
+// What is left out: section names for the writer, and what need not even be computed.
+struct LeftOut {
+  std::vector<std::string> sections;  // in file order
+  bool groups = false;
+  bool group_hierarchy = false;
+  bool textures = false;
 };
 
-// From --omit NAME,... or --only NAME,... (at most one of them); an unknown name is a usage error that lists
-// the known ones.
-Result<Wanted> wanted_parts(const std::vector<std::string>& omit, const std::vector<std::string>& only);
+// From --omit NAME,... or --only NAME,... (at most one of them). --only keeps what the named parts need. An
+// unknown name is a usage error that lists the known ones.
+Result<LeftOut> left_out_parts(const std::vector<std::string>& omit, const std::vector<std::string>& only);
 
 }  // namespace copse::treeprep

@@ -32,9 +32,9 @@ Double3 choose_origin(const DoubleBox& bounds) {
 }
 
 Assembled assemble(const AssembleInput& in, const AssembleOptions& options) {
-  TrunkArrays trunk = make_trunk_arrays(in.mesh, in.trunk, in.hierarchy, options.kind, in.origin,
-                                        in.groups.group_of_radius, options.trunk);
-  LeafArrays leaves = make_leaf_arrays(in.mesh, in.leaf_of, in.leaf_centres, in.origin, options.leaves);
+  TrunkArrays trunk =
+      make_trunk_arrays(in.mesh, in.trunk, in.hierarchy, options.kind, in.origin, in.groups.group_of_radius);
+  LeafArrays leaves = make_leaf_arrays(in.mesh, in.leaf_of, in.leaf_centres, in.origin);
 
   Assembled out;
   out.mixed_materials = leaves.mixed_materials;

@@ -23,8 +23,6 @@ struct TreeGroups {
 struct AssembleOptions {
   TreeKind kind = TreeKind::sensitive;
   LeafOrder leaf_order = LeafOrder::group;
-  TrunkParts trunk{};
-  LeafParts leaves{};
 };
 
 struct AssembleInput {

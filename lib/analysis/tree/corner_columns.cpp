@@ -22,10 +22,9 @@ std::array<std::uint32_t, 3> store(const Triangle& used, const std::vector<T>& a
 
 }  // namespace
 
-CornerColumns::CornerColumns(const Mesh& mesh, bool with_normals, bool with_texcoords) : mesh_(mesh) {
-  if (with_normals && !mesh.normal_triangles.empty()) stored_normal_.assign(mesh.normals.size(), k_none);
-  if (with_texcoords && !mesh.texcoord_triangles.empty())
-    stored_texcoord_.assign(mesh.texcoords.size(), k_none);
+CornerColumns::CornerColumns(const Mesh& mesh) : mesh_(mesh) {
+  if (!mesh.normal_triangles.empty()) stored_normal_.assign(mesh.normals.size(), k_none);
+  if (!mesh.texcoord_triangles.empty()) stored_texcoord_.assign(mesh.texcoords.size(), k_none);
 }
 
 CornerTriangle CornerColumns::corners(std::uint32_t mesh_triangle) {

@@ -13,7 +13,7 @@ namespace copse {
 
 class CornerColumns {
  public:
-  CornerColumns(const Mesh& mesh, bool with_normals, bool with_texcoords);
+  explicit CornerColumns(const Mesh& mesh);
 
   // The normal and texture indices of a mesh triangle's corners, into the columns below; vertices stay 0.
   CornerTriangle corners(std::uint32_t mesh_triangle);

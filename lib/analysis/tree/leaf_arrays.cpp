@@ -51,7 +51,7 @@ Indices leaf_materials(const Mesh& mesh, const LeafTriangles& sorted, std::uint6
 }  // namespace
 
 LeafArrays make_leaf_arrays(const Mesh& mesh, std::span<const std::uint32_t> leaf_of,
-                            std::span<const Double3> centres, const Double3& origin, const LeafParts& parts) {
+                            std::span<const Double3> centres, const Double3& origin) {
   LeafArrays out;
   LeafTriangles sorted = by_leaf(leaf_of, centres.size());
   store_materials(leaf_materials(mesh, sorted, out.mixed_materials), out.leaves.material,
@@ -59,12 +59,8 @@ LeafArrays make_leaf_arrays(const Mesh& mesh, std::span<const std::uint32_t> lea
   std::vector<Float3> points(centres.size());
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = to_float(centres[i] - origin);
   out.leaves.centres = std::move(points);
-  for (const std::uint32_t t : sorted.triangle) {
-    for (const std::uint32_t v : mesh.triangles[t]) out.bounds.grow(to_float(mesh.positions[v] - origin));
-  }
-  if (!parts.geometry) return out;
 
-  CornerColumns columns(mesh, parts.normals, parts.texcoords);
+  CornerColumns columns(mesh);
   Indices stored(mesh.positions.size(), k_none);
   std::vector<Float3> vertices;
   std::vector<CornerTriangle> triangles(sorted.triangle.size());
@@ -75,6 +71,7 @@ LeafArrays make_leaf_arrays(const Mesh& mesh, std::span<const std::uint32_t> lea
       if (stored[v] == k_none) {
         stored[v] = static_cast<std::uint32_t>(vertices.size());
         vertices.push_back(to_float(mesh.positions[v] - origin));
+        out.bounds.grow(vertices.back());
       }
       triangles[i].vertex[c] = stored[v];
     }

@@ -11,15 +11,9 @@
 
 namespace copse {
 
-struct LeafParts {
-  bool geometry = true;  // triangles and vertices; without them only centres and materials are made
-  bool normals = true;
-  bool texcoords = true;
-};
-
 struct LeafArrays {
-  Leaves leaves;    // without groups, order and hierarchy
-  FloatBox bounds;  // of the leaves' vertices as stored, whether they are stored or not
+  Leaves leaves;  // without groups, order and hierarchy
+  FloatBox bounds;
   std::uint32_t leaf_factor = 0;
   std::uint64_t mixed_materials = 0;  // leaves whose triangles have several materials: the first one is kept
 };
@@ -27,6 +21,6 @@ struct LeafArrays {
 // `leaf_of`: one a mesh triangle, the leaf that it belongs to or k_none; every leaf 0 .. centres.size() - 1
 // has at least one triangle. `centres`: one a leaf. Positions are stored relative to `origin`. Linear.
 LeafArrays make_leaf_arrays(const Mesh& mesh, std::span<const std::uint32_t> leaf_of,
-                            std::span<const Double3> centres, const Double3& origin, const LeafParts& parts);
+                            std::span<const Double3> centres, const Double3& origin);
 
 }  // namespace copse

@@ -313,8 +313,8 @@ void store_lines(const Segments& segments, const Hierarchy& hierarchy, const Ord
 }
 
 void store_triangles(const Mesh& mesh, const TrunkMesh& source, const Segments& segments,
-                     const VertexOrder& vertices, const TrunkParts& parts, Trunk& trunk) {
-  CornerColumns columns(mesh, parts.normals, parts.texcoords);
+                     const VertexOrder& vertices, Trunk& trunk) {
+  CornerColumns columns(mesh);
   std::vector<CornerTriangle> triangles(segments.triangles.size());
   Indices materials(segments.triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -333,7 +333,7 @@ void store_triangles(const Mesh& mesh, const TrunkMesh& source, const Segments& 
 
 TrunkArrays make_trunk_arrays(const Mesh& mesh, const TrunkMesh& trunk, const Hierarchy& hierarchy,
                               TreeKind kind, const Double3& origin,
-                              const std::vector<std::uint32_t>& group_of_radius, const TrunkParts& parts) {
+                              const std::vector<std::uint32_t>& group_of_radius) {
   TrunkArrays out;
   const Order order = breadth_first(hierarchy.radii);
   const Indices owner = owners(trunk, hierarchy);
@@ -345,8 +345,7 @@ TrunkArrays make_trunk_arrays(const Mesh& mesh, const TrunkMesh& trunk, const Hi
 
   out.segment_factor = constant_step(segments.first_triangle);
   store_lines(segments, hierarchy, order, radii, kind, out.trunk);
-  if (!parts.lines) out.trunk.lines = {}, out.trunk.line_vertices = {};
-  store_triangles(mesh, trunk, segments, vertices, parts, out.trunk);
+  store_triangles(mesh, trunk, segments, vertices, out.trunk);
   if (out.segment_factor == 0 && !segments.child.empty())
     out.trunk.first_triangle = std::move(segments.first_triangle);
 

@@ -8,13 +8,6 @@
 
 namespace copse {
 
-// What a scene may do without; what is not wanted is not computed.
-struct TrunkParts {
-  bool lines = true;
-  bool normals = true;
-  bool texcoords = true;
-};
-
 struct TrunkArrays {
   Trunk trunk;
   RadiusHierarchy hierarchy;  // of a sensitive tree; the radii are also what a .tree's lines are made of
@@ -34,6 +27,6 @@ struct TrunkArrays {
 // triangles, at least one radius has a parent and is no joint.
 TrunkArrays make_trunk_arrays(const Mesh& mesh, const TrunkMesh& trunk, const Hierarchy& hierarchy,
                               TreeKind kind, const Double3& origin,
-                              const std::vector<std::uint32_t>& group_of_radius, const TrunkParts& parts);
+                              const std::vector<std::uint32_t>& group_of_radius);
 
 }  // namespace copse

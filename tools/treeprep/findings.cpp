@@ -1,0 +1,104 @@
+#include "tools/treeprep/findings.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace copse::treeprep {
+namespace {
+
+std::string count(std::uint64_t n) {
+  return fmt::format("{}", n);
+}
+
+Table counts_table(const Findings& f) {
+  Table table{"found", {"what", "count"}, {}};
+  const auto add = [&](const char* what, std::uint64_t n) { table.rows.push_back({what, count(n)}); };
+  std::uint64_t roots = 0, joints = 0, branches = 0;
+  for (const RadiusNode& r : f.hierarchy.radii) {
+    roots += r.parent == k_none, joints += r.joint;
+    branches = std::max<std::uint64_t>(branches, r.branch + 1);
+  }
+  add("triangles in the mesh", f.mesh.triangles.size());
+  add("trunk triangles", f.classes.trunk_triangles);
+  add("degenerate trunk triangles, left out", f.classes.trunk_triangles - f.trunk.triangles.size());
+  add("leaf triangles", f.classes.leaf_triangles);
+  add("leaves", f.classes.leaf_count);
+  add("leaf groups", f.tree.leaves.groups.size());
+  add("roots", roots);
+  add("radii", f.hierarchy.radii.size());
+  add("branches", branches);
+  add("segments", f.tree.segment_count());
+  add("branches joined to their parent without a surface", joints);
+  return table;
+}
+
+// Which method found the radii where, and how much of the trunk each explains.
+Table skeleton_table(const Findings& f) {
+  static constexpr const char* k_names[] = {"rings of the mesh", "rings collapsed to a point",
+                                            "surface skeleton"};
+  std::uint64_t radii[3] = {}, triangles[3] = {}, unexplained = 0;
+  for (const RadiusNode& r : f.hierarchy.radii) ++radii[static_cast<int>(r.source)];
+  for (const std::uint32_t s : f.hierarchy.segment_of) {
+    if (s == k_none) {
+      ++unexplained;
+    } else {
+      ++triangles[static_cast<int>(f.hierarchy.radii[s].source)];
+    }
+  }
+  Table table{"skeleton", {"radii from", "radii", "trunk triangles explained"}, {}};
+  for (int i = 0; i < 3; ++i) {
+    if (radii[i] > 0) table.rows.push_back({k_names[i], count(radii[i]), count(triangles[i])});
+  }
+  if (unexplained > 0) table.rows.push_back({"nothing (caps, lumps)", "", count(unexplained)});
+  return table;
+}
+
+Table components_table(const Classification& classes) {
+  struct Sum {
+    std::uint64_t components = 0, triangles = 0;
+  };
+  std::map<std::pair<PartClass, std::string_view>, Sum> sums;
+  for (const Component& c : classes.components) {
+    Sum& sum = sums[{c.kind, c.reason}];
+    ++sum.components, sum.triangles += c.triangles;
+  }
+  Table table{"components", {"class", "why", "components", "triangles"}, {}};
+  for (const auto& [key, sum] : sums) {
+    table.rows.push_back({key.first == PartClass::trunk ? "trunk" : "leaf", std::string(key.second),
+                          count(sum.components), count(sum.triangles)});
+  }
+  return table;
+}
+
+ErrorRecord record(const char* name, const ErrorDistribution& d, const char* unit) {
+  return {name, d.mean, unit, d.max, d.p95, d.rms, "input mesh"};
+}
+
+}  // namespace
+
+void report_findings(const Findings& findings, Report& report) {
+  report.tables.push_back(counts_table(findings));
+  if (!findings.hierarchy.radii.empty()) report.tables.push_back(skeleton_table(findings));
+  report.tables.push_back(components_table(findings.classes));
+  for (const std::string& note : findings.hierarchy.notes) report.warnings.push_back(note);
+}
+
+void report_errors(const CylinderError& error, Report& report) {
+  report.errors.push_back(record("cylinder-surface of local radius", error.of_radius, "ratio"));
+  report.errors.push_back(record("cylinder-surface of tree height", error.of_height, "ratio"));
+  report.errors.push_back(
+      {"trunk triangles unexplained", 1 - error.explained_triangles, "ratio", {}, {}, {}, "input mesh"});
+  report.errors.push_back(
+      {"trunk area unexplained", 1 - error.explained_area, "ratio", {}, {}, {}, "input mesh"});
+}
+
+void report_left_out(const std::vector<std::pair<std::string, std::uint64_t>>& saved, Report& report) {
+  if (saved.empty()) return;
+  Table table{"left out", {"part", "bytes saved"}, {}};
+  for (const auto& [name, bytes] : saved) table.rows.push_back({name, count(bytes)});
+  report.tables.push_back(std::move(table));
+}
+
+}  // namespace copse::treeprep

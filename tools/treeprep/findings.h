@@ -1,0 +1,30 @@
+// What treeprep found, as tables and errors of the report.
+#pragma once
+
+#include "lib/analysis/leaves/classify.h"
+#include "lib/analysis/measure/cylinder_error.h"
+#include "lib/analysis/trunk/hierarchy.h"
+#include "lib/analysis/trunk/trunk_mesh.h"
+#include "lib/formats/report.h"
+#include "lib/formats/tree.h"
+
+namespace copse::treeprep {
+
+struct Findings {
+  const Mesh& mesh;
+  const Classification& classes;
+  const TrunkMesh& trunk;
+  const Hierarchy& hierarchy;
+  const Tree& tree;
+};
+
+// Counts, where the hierarchy comes from, and the components by class and reason.
+void report_findings(const Findings& findings, Report& report);
+
+// The error of the generalized cylinders, as shares of radius and height, and the shares explained.
+void report_errors(const CylinderError& error, Report& report);
+
+// What --omit and --only left out and what that saved.
+void report_left_out(const std::vector<std::pair<std::string, std::uint64_t>>& saved, Report& report);
+
+}  // namespace copse::treeprep

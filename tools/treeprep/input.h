@@ -1,0 +1,23 @@
+// Reads the input meshes and makes them one, in copse's frame.
+#pragma once
+
+#include "lib/formats/mesh.h"
+#include "lib/formats/result.h"
+#include "tools/common/tool.h"
+#include "tools/treeprep/options.h"
+
+#include <string>
+
+namespace copse::treeprep {
+
+struct Input {
+  Mesh mesh;           // oriented, scaled; at least one triangle
+  std::string name;    // for messages: the first file, "(+2 more)" where there are several
+  std::string format;  // "obj", "glb", ...
+};
+
+// Texture references come out relative to the folder of `options.output`. What was dropped or mended is
+// warned about; with --strict it is refused.
+Result<Input> read_input(const Options& options, Context& context);
+
+}  // namespace copse::treeprep
