@@ -10,18 +10,18 @@ namespace {
 
 // Folded as words_of folds: no accents, lower case.
 constexpr std::string_view k_trunk_words =
-    "bark barks trunk trunks bole boles wood woody log logs timber root roots stump stumps heartwood sapwood "
+    "bark barks trunk trunks bole boles wood woody log logs timber roots stump stumps heartwood sapwood "
     "rinde borke stamm stamme staemme holz wurzel wurzeln "
     "ecorce tronc troncs bois racine racines "
     "corteza tronco troncos madera raiz raices "
     "casca madeira corteccia legno fusto radice radici "
     "schors stam stammen hout boomstam wortel wortels "
-    "kora pien pnia drewno korzen korzenie kmen kura drevo koren koreny "
+    "kora pien pnia drewno korzen korzenie kmen kura koren koreny "
     "stvol \u0441\u0442\u0432\u043e\u043b \u0441\u0442\u0432\u043e\u043b\u044b \u043a\u043e\u0440\u0430 "
     "\u0434\u0440\u0435\u0432\u0435\u0441\u0438\u043d\u0430 \u043a\u043e\u0440\u043d\u0438 "
     "runko kaarna juuri govde kabuk";
 constexpr std::string_view k_weak_trunk_words =
-    "branch branches stem stems twig twigs limb limbs bough boughs stalk stalks stick sticks shoot shoots "
+    "branch branches root stem stems twig twigs limb limbs bough boughs stalk stalks stick sticks shoot shoots "
     "ast aste aeste zweig zweige stiel stiele "
     "branche rameau rameaux tige tiges rama ramas tallo tallos ramo ramos rami gambo "
     "galho galhos caule tak takken twijg gren grenar kvist kvistar "
