@@ -3,72 +3,19 @@
 
 demo_page.py OUT_FOLDER SAMPLES_FILE > index.html
 
-The truth is treegrow's; a ring is found when a recovered radius lies within 1e-4 of the height of it and its diameter
-is within 0.1 %; its parent is right when the recovered parent is the true one (or the other ring of the segment that the
-branch grows from).
+The truth is treegrow's; exactness.py says what counts as found and as right.
 """
 import html
 import json
-import math
 import os
 import sys
+
+from exactness import exactness
 
 
 def load(path):
     with open(path, encoding="utf-8") as f:
         return json.load(f)
-
-
-def exactness(truth, found):
-    """(rings, rings found, parents right, worst centre error / height, worst diameter error)"""
-    height = truth["height"]
-    cell = max(height * 1e-4, 1e-30)
-    grid = {}
-    for i, radius in enumerate(found["radii"]):
-        grid.setdefault(tuple(math.floor(c / cell) for c in radius["center"]), []).append(i)
-
-    def matches(ring):
-        key = [math.floor(c / cell) for c in ring["center"]]
-        near = []
-        for dx in (-1, 0, 1):
-            for dy in (-1, 0, 1):
-                for dz in (-1, 0, 1):
-                    near += grid.get((key[0] + dx, key[1] + dy, key[2] + dz), [])
-        for i in near:
-            radius = found["radii"][i]
-            centre = math.dist(radius["center"], ring["center"]) / height
-            diameter = abs(radius["diameter"] - ring["diameter"]) / max(ring["diameter"], 1e-30)
-            if centre <= 1e-4 and diameter <= 1e-3:
-                yield i, centre, diameter
-
-    rings = [i for i, r in enumerate(truth["radii"]) if not r.get("tip") and r.get("same_as") is None]
-    match, worst_centre, worst_diameter = {}, 0.0, 0.0
-    for i in range(len(truth["radii"])):
-        best = min(matches(truth["radii"][i]), key=lambda m: m[1] + m[2], default=None)
-        if best:
-            match[i] = best[0]
-            if i in rings:
-                worst_centre, worst_diameter = max(worst_centre, best[1]), max(worst_diameter, best[2])
-    alternatives = {b["first"]: b.get("attach") or [] for b in truth["branches"]}
-
-    def parents(i):
-        allowed, todo = set(), [i]
-        while todo:
-            j = todo.pop()
-            for p in [truth["radii"][j]["parent"], *alternatives.get(j, [])]:
-                if p == -1:
-                    allowed.add(-1)
-                elif truth["radii"][j].get("same_as") == p or truth["radii"][p].get("same_as") == j:
-                    todo.append(p)
-                else:
-                    allowed.add(match.get(p, None))
-                    twin = truth["radii"][p].get("same_as")
-                    if twin is not None:
-                        allowed.add(match.get(twin, None))
-        return allowed
-
-    right = sum(1 for i in rings if i in match and found["radii"][match[i]]["parent"] in parents(i))
-    return len(rings), sum(i in match for i in rings), right, worst_centre, worst_diameter
 
 
 def seconds(value):
@@ -77,7 +24,7 @@ def seconds(value):
 
 def card(out, name):
     prep, play = load(f"{out}/{name}.prep.json"), load(f"{out}/{name}.play.json")
-    rings, found, right, centre, diameter = exactness(load(f"{out}/{name}.truth.json"), load(f"{out}/{name}.hierarchy.json"))
+    e = exactness(load(f"{out}/{name}.truth.json"), load(f"{out}/{name}.hierarchy.json"))
     stages = "".join(f"<tr><td>treeprep: {html.escape(s['name'])}</td><td>{seconds(s['seconds'])}</td></tr>" for s in prep["stages"])
     stages += f"<tr><td>treeplay</td><td>{seconds(play['seconds'])}</td></tr>"
     size = os.path.getsize(f"{out}/{name}.stree")
@@ -85,8 +32,8 @@ def card(out, name):
 <h2>{html.escape(name)}</h2>
 <div class="pictures"><img src="{name}.png" alt="{html.escape(name)} as treeplay draws it" width="320" height="360">
 <img src="{name}.skeleton.png" alt="its recovered hierarchy" width="320" height="360"></div>
-<p>{found} of {rings} rings found, {right} of {rings} parents right; worst centre {centre:.1e} of the height, worst diameter {diameter:.1e}.
-{size / 1e6:.2f} MB.</p>
+<p>{e.found} of {e.rings} rings found, {e.parents_right} of {e.rings} parents right; worst centre {e.worst_centre:.1e} of the height,
+worst diameter {e.worst_diameter:.1e}; {e.leaves} of {e.true_leaves} leaves. {size / 1e6:.2f} MB.</p>
 <table>{stages}</table>
 <p><a href="{name}.prep.html">treeprep's report</a> · <a href="{name}.txt">treedump</a> · <a href="{name}.glb">mesh</a> · <a href="{name}.stree">tree</a></p>
 </article>"""

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""How exactly treeprep recovers hierarchies: on every species of treegrow as it is, on each with every named break, and on
+the meshes with truth at ../shared/trees where they are there (those with the scorer that comes with them).
+
+./run bench hierarchy; prints a row a mesh and ends with the number of rows that are not exact.
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "samples"))
+from exactness import exactness  # noqa: E402
+
+SHARED = ROOT.parent / "shared"
+
+
+def run(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def recover(mesh, folder, *options):
+    tree = folder / "tree.stree"
+    run("treeprep", str(mesh), "-o", str(tree), "-q", *options)
+    hierarchy = folder / "hierarchy.json"
+    hierarchy.write_text(run("treedump", str(tree), "--hierarchy"))
+    return hierarchy
+
+
+def grown(species, breaks, folder):
+    mesh, truth = folder / "tree.obj", folder / "truth.json"
+    run("treegrow", species, "-o", str(mesh), "--truth", str(truth), "-q", *breaks)
+    return exactness(json.loads(truth.read_text()), json.loads(recover(mesh, folder).read_text()))
+
+
+def is_exact(e):
+    return e.found == e.rings == e.parents_right and e.leaves == e.true_leaves
+
+
+def row(name, e):
+    verdict = "exact" if is_exact(e) else "NOT EXACT"
+    print(f"{name:44s} {e.found:6d}/{e.rings:<6d} {e.parents_right:6d} {e.extra:5d} {e.worst_centre:9.1e} {e.worst_diameter:9.1e} "
+          f"{e.leaves:6d}/{e.true_leaves:<6d} {verdict}", flush=True)
+    return not is_exact(e)
+
+
+def grown_rows(folder):
+    print(f"{'treegrow':44s} {'rings':>13s} {'parent':>6s} {'extra':>5s} {'centre':>9s} {'diameter':>9s} {'leaves':>13s}")
+    species = [line.split()[0] for line in run("treegrow", "--list").splitlines() if line.strip()]
+    breaks = [line.split()[0] for line in run("treegrow", "--list-breaks").splitlines() if line.strip()]
+    bad = 0
+    for s in species:
+        bad += row(f"{s}", grown(s, [], folder))
+        bad += row(f"{s} --strict-model", grown(s, ["--strict-model"], folder))
+    for b in breaks:
+        for s in species:
+            bad += row(f"{s} --break {b}", grown(s, ["--break", b], folder))
+    return bad
+
+
+def shared_rows(folder):
+    scorer, trees = SHARED / "tools/evaluate_hierarchy.py", SHARED / "trees"
+    if not scorer.exists():
+        print("../shared is not there: its meshes with truth are not scored")
+        return 0
+    keys = ["ring_recall", "ring_precision", "ring_recall_strict", "parent_link_exact", "attach_accuracy_of_all", "attach_tight_of_seen",
+            "centre_err_over_height_p95", "diameter_rel_err_p95", "leaf_conservation_error", "leaf_coverage"]
+    short = ["recall", "precis.", "strict", "parents", "attach", "tight", "centre", "diameter", "leaves", "covered"]
+    print(f"\n{'../shared/trees':28s} " + " ".join(f"{k:>8s}" for k in short))
+    bad = 0
+    for truth in sorted((trees / "truth").glob("*.json.gz")):
+        name = truth.name.removesuffix(".json.gz")
+        mesh = next((trees / (name + end) for end in (".obj", ".obj.gz") if (trees / (name + end)).exists()), None)
+        if mesh is None or name.endswith(".rings"):
+            continue
+        result = folder / "score.json"
+        run("/usr/bin/python3", str(scorer), str(truth), str(recover(mesh, folder)), "--json", str(result))
+        score = json.loads(result.read_text())
+        print(f"{name:28s} " + " ".join(f"{score.get(k, float('nan')):8.4f}" if score.get(k) is not None else f"{'-':>8s}" for k in keys), flush=True)
+        bad += any(score[k] < 1 for k in keys[:6]) or score[keys[6]] > 1e-4 or score[keys[7]] > 1e-3
+    return bad
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        bad = shared_rows(folder) + grown_rows(folder)
+    print(f"\n{bad} not exact")
+
+
+if __name__ == "__main__":
+    main()
