@@ -1,5 +1,6 @@
 #include "lib/formats/check_tree.h"
 
+#include "lib/formats/check_parts.h"
 #include "lib/formats/tree_file.h"
 #include "lib/formats/tree_sections.h"
 
@@ -98,7 +99,31 @@ std::vector<std::string> check_sizes(const Tree& tree) {
   return findings.lines();
 }
 
-void check_elements(const Tree&, const Head&, Findings&) {}
+std::string check_counts(const Head& head) {
+  const TreeHeader& h = head.header;
+  const TreeCounts& c = head.counts;
+  const auto runs = [](const char* what, std::uint32_t constant, std::uint32_t owners,
+                       std::uint32_t elements) {
+    const bool fits = constant == 0 ? elements == 0 || owners > 0
+                                    : elements > 0 && std::uint64_t{constant} * owners == elements;
+    return fits ? std::string() : fmt::format("{} {} in {} runs of {}", elements, what, owners, constant);
+  };
+  std::string wrong = runs("trunk triangles", h.segment_factor, c.segments, c.trunk_triangles);
+  if (wrong.empty()) wrong = runs("leaf triangles", h.leaf_factor, c.leaves, c.leaf_triangles);
+  if (wrong.empty() && h.kind == TreeKind::sensitive)
+    wrong = runs("vertex vectors", h.ring_size, c.radii, c.trunk_vertices);
+  return wrong;
+}
+
+void check_elements(const Tree& tree, const Head& head, Findings& findings) {
+  const Check check{tree, head, findings};
+  check_header(check);
+  const bool hierarchy = check_hierarchy(check);
+  check_trunk(check, hierarchy);
+  const bool leaves = check_leaves(check);
+  check_groups(check, leaves);
+  check_group_hierarchy(check);
+}
 
 std::vector<std::string> check_tree(const Tree& tree) {
   if (auto wrong = check_sizes(tree); !wrong.empty()) return wrong;

@@ -49,6 +49,10 @@ class Findings {
 // costs O(1).
 std::vector<std::string> check_sizes(const Tree& tree);
 
+// Whether the counts and constants of a header fit together: O(1), and enough to divide arrays by them. What
+// is wrong, or nothing.
+std::string check_counts(const Head& head);
+
 // Every element of what is there. `head` says how many elements each array has in the file, loaded or not, so
 // that a part of a tree can be checked. Precondition: the arrays that are there have these sizes.
 void check_elements(const Tree& tree, const Head& head, Findings& findings);

@@ -39,7 +39,7 @@ struct Radius {
     terminal = 1,  // no child radii; child_count is 0 or 1 and first_child then names a leaf group
     joint = 2,     // no surface joins it to its parent (a free tube's first ring): no segment ends here
   };
-  Float3 centre;           // absolute for a root, otherwise the vector from the parent
+  Float3 centre{};         // absolute for a root, otherwise the vector from the parent
   float diameter = 0;      // mean diameter, 2/k sum |v - c|
   float outer_radius = 0;  // max |v - c| over its vertices, rounded up (erratum E25)
   float distance = 0;      // to the parent's centre; 0 for a root
@@ -51,7 +51,7 @@ struct Radius {
 static_assert(sizeof(Radius) == 36);
 
 struct LeafGroup {
-  Float3 centre;        // of a sphere that encloses the group's triangles, as float32, relative to the origin
+  Float3 centre{};      // of a sphere that encloses the group's triangles, as float32, relative to the origin
   float radius = 0;     // rounded up
   float mean_area = 0;  // of its leaves, alpha coverage counted (erratum E11)
   std::uint32_t first = 0;  // its leaves are order[first .. first + count)
@@ -63,7 +63,7 @@ static_assert(sizeof(LeafGroup) == 28);
 // A node of the hierarchy of bounding spheres over the leaf groups, in depth-first order: node 0 is the root,
 // and `skip` is the index of the next node that is not below this one (so a failed test jumps there).
 struct GroupNode {
-  Float3 centre;
+  Float3 centre{};
   float radius = 0;
   std::uint32_t skip = 0;
   std::uint32_t group = k_none;  // the leaf group of a bottom node, k_none inside
@@ -73,14 +73,14 @@ static_assert(sizeof(GroupNode) == 24);
 
 struct TreeHeader {
   TreeKind kind = TreeKind::still;
-  Double3 origin;               // add it to every stored position; 0 unless the tree is far from the origin
-  FloatBox bounds;              // the whole tree, rounded outward; empty when there is nothing
-  FloatBox trunk_bounds;        // the trunk alone
-  Float3 area_density_centre;   // of the trunk: sum A_i c_i / sum A_i over its triangles
-  float mean_trunk_area = 0;    // of a trunk triangle
-  float mean_leaf_area = 0;     // of a leaf, alpha coverage counted
-  std::uint32_t roots = 0;      // the first `roots` radii are the roots
-  std::uint32_t ring_size = 0;  // k when all radii have k vertices, otherwise 0
+  Double3 origin{};              // add it to every stored position; 0 unless the tree is far from the origin
+  FloatBox bounds{};             // the whole tree, rounded outward; empty when there is nothing
+  FloatBox trunk_bounds{};       // the trunk alone
+  Float3 area_density_centre{};  // of the trunk: sum A_i c_i / sum A_i over its triangles
+  float mean_trunk_area = 0;     // of a trunk triangle
+  float mean_leaf_area = 0;      // of a leaf, alpha coverage counted
+  std::uint32_t roots = 0;       // the first `roots` radii are the roots
+  std::uint32_t ring_size = 0;   // k when all radii have k vertices, otherwise 0
   std::uint32_t segment_factor = 0;  // triangles a segment when constant, otherwise 0
   std::uint32_t leaf_factor = 0;     // triangles a leaf when constant, otherwise 0
   std::uint32_t unexplained = 0;     // trunk triangles that no generalized cylinder explains

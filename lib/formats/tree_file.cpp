@@ -119,6 +119,8 @@ Result<void> TreeFile::Impl::check_section(std::string_view name, std::uint64_t 
 
 // Every section that this version knows has the size that HEAD gives it, or is missing for a stated reason.
 Result<void> TreeFile::Impl::check_table() const {
+  if (const std::string wrong = check_counts(head); !wrong.empty())
+    return file.refuse_section(*file.find("HEAD"), 0, wrong);
   Result<void> state;
   const auto check = [&](std::string_view name, std::uint64_t count, std::size_t stride, Presence presence) {
     if (state) state = check_section(name, count, stride, presence);

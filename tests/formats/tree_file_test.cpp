@@ -1,43 +1,51 @@
 #include "lib/formats/tree_file.h"
 
+#include "tests/formats/tree_maker.h"
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 namespace copse {
 namespace {
 
-Tree small_tree() {
-  Tree tree;
-  tree.header.kind = TreeKind::sensitive;
-  tree.header.roots = 1;
-  tree.header.ring_size = 2;
-  tree.header.monotone = true;
-  tree.provenance = "{}";
-  tree.materials.resize(1);
-  tree.materials[0].name = "bark";
-  tree.hierarchy.radii = std::vector<Radius>{
-      {.centre = {0, 0, 0}, .diameter = 2, .outer_radius = 1, .first_child = 1, .child_count = 1},
-      {.centre = {0, 1, 0}, .diameter = 2, .outer_radius = 1, .distance = 1, .flags = Radius::terminal}};
-  tree.hierarchy.vectors = std::vector<Float3>{{1, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {-1, 0, 0}};
-  tree.trunk.triangles = std::vector<CornerTriangle>{{.vertex = {0, 1, 2}}, {.vertex = {1, 3, 2}}};
-  tree.header.segment_factor = 2;
-  tree.trunk.lines = std::vector<std::array<std::uint32_t, 2>>{{0, 1}};
-  tree.trunk.diameters = std::vector<float>{2};
-  tree.trunk.accumulated_lengths = std::vector<double>{1};
-  tree.trunk.material = 0;
-  return tree;
+using testing::IsEmpty;
+
+TreeShape any_shape() {
+  TreeShape s;
+  s.kind = *rc::gen::element(TreeKind::still, TreeKind::sensitive);
+  s.radii = *rc::gen::inRange(0u, 40u);
+  s.roots = *rc::gen::inRange(1u, 4u);
+  s.leaves = *rc::gen::inRange(0u, 30u);
+  s.groups = *rc::gen::inRange(0u, 8u);
+  s.ring = *rc::gen::element(0u, 1u, 4u);
+  s.segment = *rc::gen::element(0u, 1u, 8u);
+  s.leaf = *rc::gen::element(0u, 1u, 2u);
+  s.joints = *rc::gen::element(0u, 1u, 4u);
+  s.materials = *rc::gen::inRange(0u, 4u);
+  s.textures = *rc::gen::inRange(0u, 4u);
+  s.one_material = *rc::gen::arbitrary<bool>();
+  s.normals = *rc::gen::arbitrary<bool>();
+  s.texcoords = *rc::gen::arbitrary<bool>();
+  s.leaf_order = *rc::gen::element(LeafOrder::group, LeafOrder::terminal, LeafOrder::random);
+  return s;
 }
 
-TEST(TreeFile, LoadsWhatWasEncoded) {
+RC_GTEST_PROP(TreeFile, EveryTreeComesBackToTheBit, ()) {
+  const Tree tree = make_tree(any_shape(), *rc::gen::arbitrary<std::uint64_t>());
+  for (const auto& line : check_tree(tree)) RC_FAIL(line);
   for (const Encoding encoding : {Encoding::raw, Encoding::zstd}) {
-    const auto bytes = encode_tree(small_tree(), {.encoding = encoding});
-    ASSERT_TRUE(bytes) << to_line(bytes.error(), "test");
-    const auto file = TreeFile::from_bytes(*bytes, "small.stree");
-    ASSERT_TRUE(file) << to_line(file.error(), "test");
-    const auto tree = file->load();
-    ASSERT_TRUE(tree) << to_line(tree.error(), "test");
-    EXPECT_EQ(tree->header, small_tree().header);
-    EXPECT_EQ(*encode_tree(*tree, {.encoding = encoding}), *bytes);
-    EXPECT_EQ(tree->trunk.triangles.to_vector(), small_tree().trunk.triangles.to_vector());
+    const auto bytes = encode_tree(tree, {.encoding = encoding});
+    RC_ASSERT(bytes.has_value());
+    for (const Trust trust : {Trust::nothing, Trust::checksums, Trust::file}) {
+      const auto file = TreeFile::from_bytes(*bytes, "any.stree", trust);
+      if (!file) RC_FAIL(file.error().what);
+      const auto loaded = file->load();
+      if (!loaded) RC_FAIL(loaded.error().what);
+      RC_ASSERT(same(tree, *loaded));
+      RC_ASSERT(file->verify().empty());
+    }
+    RC_ASSERT(*encode_tree(tree, {.encoding = encoding}) == *bytes);
   }
 }
 
