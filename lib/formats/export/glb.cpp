@@ -55,6 +55,7 @@ class GlbWriter {
     root_["scene"] = 0;
     root_["scenes"] = Json::array({Json::object()});
     add_meshes();
+    add_materials();
     add_accessors();
     add_buffer();
     add_extensions();
@@ -110,8 +111,8 @@ class GlbWriter {
   // A primitive without texture coordinates may not use a material with a texture: it gets one without.
   std::size_t material(std::uint32_t index, bool with_texture) {
     const bool textured = with_texture && mesh_.materials[index].texture != k_none;
-    const auto [at, is_new] = materials_.try_emplace({index, textured}, root_["materials"].size());
-    if (is_new) root_["materials"].push_back(material_json(mesh_.materials[index], textured));
+    const auto [at, is_new] = material_numbers_.try_emplace({index, textured}, materials_.size());
+    if (is_new) materials_.push_back(material_json(mesh_.materials[index], textured));
     return at->second;
   }
 
@@ -144,11 +145,10 @@ class GlbWriter {
   }
 
   std::size_t texture(std::uint32_t index) {
-    const auto [at, is_new] = textures_.try_emplace(index, root_["textures"].size());
+    const auto [at, is_new] = texture_numbers_.try_emplace(index, textures_.size());
     if (!is_new) return at->second;
-    if (!root_.contains("samplers")) root_["samplers"] = Json::array({{{"wrapS", 10497}, {"wrapT", 10497}}});
-    root_["textures"].push_back({{"sampler", 0}, {"source", root_["images"].size()}});
-    root_["images"].push_back(image_json(index));
+    textures_.push_back({{"sampler", 0}, {"source", images_.size()}});
+    images_.push_back(image_json(index));
     return at->second;
   }
 
@@ -163,6 +163,14 @@ class GlbWriter {
     }
     files_.push_back({texture_file_name(name_, index, texture), std::string(bytes)});
     return {{"uri", encoded_uri(files_.back().name)}};
+  }
+
+  void add_materials() {
+    if (!materials_.empty()) root_["materials"] = std::move(materials_);
+    if (textures_.empty()) return;
+    root_["textures"] = std::move(textures_);
+    root_["images"] = std::move(images_);
+    root_["samplers"] = Json::array({{{"wrapS", 10497}, {"wrapT", 10497}}});  // both repeat
   }
 
   void add_accessors() {
@@ -228,8 +236,9 @@ class GlbWriter {
   GlbGeometry geometry_;
   Json root_;
   std::vector<ExportedFile> files_;
-  std::map<std::pair<std::uint32_t, bool>, std::size_t> materials_;
-  std::map<std::uint32_t, std::size_t> textures_;
+  Json materials_ = Json::array(), textures_ = Json::array(), images_ = Json::array();
+  std::map<std::pair<std::uint32_t, bool>, std::size_t> material_numbers_;
+  std::map<std::uint32_t, std::size_t> texture_numbers_;
   std::map<std::string, bool> extensions_;
 };
 

@@ -14,14 +14,27 @@ void add(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
 }
 
+void add_index(std::string& out, std::uint32_t index) {
+  const fmt::format_int digits(std::uint64_t{index} + 1);
+  out.append(digits.data(), digits.size());
+}
+
 void add_corner(std::string& out, std::uint32_t position, std::uint32_t texcoord, std::uint32_t normal) {
-  add(out, " {}", std::uint64_t{position} + 1);
-  if (texcoord != k_none) {
-    add(out, "/{}", std::uint64_t{texcoord} + 1);
-  } else if (normal != k_none) {
-    out += '/';
-  }
-  if (normal != k_none) add(out, "/{}", std::uint64_t{normal} + 1);
+  out += ' ';
+  add_index(out, position);
+  if (texcoord != k_none || normal != k_none) out += '/';
+  if (texcoord != k_none) add_index(out, texcoord);
+  if (normal == k_none) return;
+  out += '/';
+  add_index(out, normal);
+}
+
+// About how many bytes the text takes, so that it is rarely moved while it grows.
+std::size_t expected_size(const Mesh& mesh) {
+  const std::size_t arrays = 1 + !mesh.texcoord_triangles.empty() + !mesh.normal_triangles.empty();
+  const std::size_t digits = fmt::format_int(mesh.positions.size()).size();
+  return mesh.positions.size() * 40 + mesh.normals.size() * 34 + mesh.texcoords.size() * 24 +
+         mesh.triangles.size() * (2 + 3 * arrays * (digits + 1)) + 1024;
 }
 
 // Material names: those of the mesh and, when a part has none while others do, one more for it. There is no
@@ -69,8 +82,7 @@ void add_faces(std::string& out, const Mesh& mesh, const std::vector<std::string
 std::string obj_text(const Mesh& mesh, const std::string& library,
                      const std::vector<std::string>& materials) {
   std::string out;
-  out.reserve(mesh.positions.size() * 40 + mesh.normals.size() * 36 + mesh.texcoords.size() * 24 +
-              mesh.triangles.size() * 40 + 256);
+  out.reserve(expected_size(mesh));
   add(out, "# copse {}\n", COPSE_VERSION);
   if (!library.empty()) add(out, "mtllib {}\n", library);
   for (const Double3& p : mesh.positions) add(out, "v {} {} {}\n", p.x, p.y, p.z);
