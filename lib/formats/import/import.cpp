@@ -2,6 +2,7 @@
 
 #include "lib/formats/import/companions.h"
 #include "lib/formats/import/detect.h"
+#include "lib/formats/import/gltf/gltf.h"
 #include "lib/formats/import/mesh_builder.h"
 #include "lib/formats/import/obj.h"
 #include "lib/formats/import/source.h"
@@ -18,10 +19,13 @@ std::string_view as_text(std::span<const std::uint8_t> bytes) {
 }
 
 bool read_format(MeshFormat format, std::span<const std::uint8_t> bytes, const Companions& companions,
-                 MeshBuilder& builder) {
+                 const ImportOptions& options, MeshBuilder& builder) {
   switch (format) {
     case MeshFormat::obj:
       return read_obj(as_text(bytes), companions, builder);
+    case MeshFormat::gltf:
+    case MeshFormat::glb:
+      return read_gltf(bytes, companions, options.instance_limit, builder);
     default:
       break;
   }
@@ -42,7 +46,7 @@ Result<Import> import_bytes(std::span<const std::uint8_t> stored, MeshFormat for
   if (bytes.empty()) return refuse(name, "is empty", "export the mesh again");
   MeshBuilder builder(name, bytes.size(), options.strict);
   if (format == MeshFormat::unknown) format = detect_format(bytes, name);
-  read_format(format, bytes, companions, builder);
+  read_format(format, bytes, companions, options, builder);
   Result<Import> import = builder.finish(format);
   if (import) import->bytes = stored.size();
   return import;

@@ -22,6 +22,9 @@ struct ImportOptions {
   // Refuse what is otherwise dropped and counted: bad normal or texture indices, faces naming missing
   // vertices, missing material libraries.
   bool strict = false;
+  // How many triangles, and how many vertices, a glTF scene may have once its meshes are instanced; as many
+  // as its files have bytes are always allowed. Without instances no file reaches that.
+  std::uint64_t instance_limit = std::uint64_t{1} << 24;
 };
 
 // What was dropped or mended; a warning names each kind once, with the first place and the count.

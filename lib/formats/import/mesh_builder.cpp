@@ -32,6 +32,12 @@ MeshBuilder::MeshBuilder(std::string file, std::uint64_t bytes, bool strict)
     : file_(std::move(file)), bytes_(bytes), strict_(strict) {}
 
 std::uint32_t MeshBuilder::part(const std::string& object, const std::string& group, std::uint32_t material) {
+  if (std::max(object.size(), group.size()) > k_name_length) {
+    refuse(fmt::format("the name of an object or group has {} bytes, {} are allowed",
+                       std::max(object.size(), group.size()), k_name_length),
+           "give objects and groups shorter names");
+    return k_none;
+  }
   const auto [it, is_new] = parts_.try_emplace({object, group, material}, mesh.parts.size());
   if (!is_new) return it->second;
   part_name_bytes_ += object.size() + group.size();
@@ -45,8 +51,11 @@ std::uint32_t MeshBuilder::part(const std::string& object, const std::string& gr
 }
 
 void MeshBuilder::reserve(std::uint64_t triangles) {
-  mesh.triangles.reserve(triangles);
-  mesh.part_of.reserve(triangles);
+  // Exactly so at first, then in growing steps: a scene of many small meshes asks often.
+  const std::uint64_t capacity = mesh.triangles.capacity();
+  if (triangles <= capacity) return;
+  mesh.triangles.reserve(std::max(triangles, 2 * capacity));
+  mesh.part_of.reserve(mesh.triangles.capacity());
 }
 
 bool MeshBuilder::face(std::span<const Corner> corners, std::uint32_t part, const Place& place) {

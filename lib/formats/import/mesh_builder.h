@@ -36,6 +36,8 @@ struct Corner {
 // The names of all parts together may take as many bytes as this, or 4 times the file if that is more: a file
 // cannot make each of a million parts repeat one long name.
 inline constexpr std::uint64_t k_part_names_floor = std::uint64_t{16} << 20;
+// Of an object or a group, in bytes.
+inline constexpr std::uint64_t k_name_length = 4096;
 
 class MeshBuilder {
  public:
