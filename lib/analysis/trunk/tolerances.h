@@ -1,6 +1,8 @@
 // Every tolerance of the trunk analysis, in one place: name, value, unit, reason.
 #pragma once
 
+#include <cstddef>
+
 namespace copse {
 
 // --- welding
@@ -18,5 +20,63 @@ inline constexpr double k_weld_of_edge = 1.0 / 16;
 inline constexpr double k_weld_float_noise = 1.0 / (1 << 22);
 // ... but never more than this share of the diagonal, for meshes far from the origin stored in more digits.
 inline constexpr double k_weld_noise_of_diagonal = 1.0 / (1 << 23);
+
+// --- reading rings
+// -------------------------------------------------------------------------------------------
+
+// Triangles, as multiples of the surface's own, that attempts to read it may touch before it counts as no
+// tree of rings. One true start is enough; a box has three readings, each found from both ends.
+inline constexpr std::size_t k_ring_attempts = 16;
+// Cosine of the angle between the normals of neighbouring triangles below which an edge is a crease. 30
+// degrees: a lid meets the side of a tube at about 90; it need not separate the sides of a tube from each
+// other.
+inline constexpr double k_lid_smooth_cosine = 0.8660254037844387;
+// Axis length over mean diameter below which concentric rings are a flat sheet and no tube.
+inline constexpr double k_flat_slenderness = 1.0 / 16;
+// Radii between a ring's centre and the single vertex beyond it, up to which that vertex is the centre of a
+// cap (a dome is as high as the radius times tan 22.5 degrees or so) and not the point that a twig runs out
+// into, which is as long as a segment.
+inline constexpr double k_lid_height = 0.5;
+// Radii between the centres of two rings of which the smaller is inset in the cap of the larger.
+inline constexpr double k_lid_inset_height = 1.0 / 32;
+
+// --- joining and attaching limbs
+// -----------------------------------------------------------------------------------
+
+// Share of the radius by which two rings that are one may differ in centre and, of the diameter, in diameter.
+// Files with six decimals round a twig of 5 mm at 2e-4 of its radius; segments are longer than a radius.
+inline constexpr double k_join_tolerance = 1e-3;
+// Ratio of the diameters of two ends that do not tell which is the base: tubes taper by more, rounding by
+// less.
+inline constexpr double k_like_thickness = 1.1;
+// Depth of the lowest point below y = 0, as a share of the trunk's height, up to which y = 0 is the ground.
+// Roots are sunk by a few per cent; a model that is centred on the origin is at 1/2.
+inline constexpr double k_ground_depth = 0.2;
+// Radii of the base by which it may stand above the lowest base of all to stand on the same ground.
+inline constexpr double k_ground_level = 0.25;
+// Radii of another stem from its axis, up to which a stem that stands on the ground grows from that stem and
+// not from the ground.
+inline constexpr double k_ground_offset = 0.5;
+// Radii of the base between its centre and the surface of what it is attached to. A tube that is laid against
+// its parent along its side touches it at one; the second is for skins that are polygons or bent.
+inline constexpr double k_contact_reach = 2;
+// Possible parents that are looked at: the nearest by distance over radius. Twigs cross in twos and threes.
+inline constexpr std::size_t k_candidates = 16;
+// Share of a limb's own reach that may separate it from what it floats above.
+inline constexpr double k_float_gap = 0.1;
+// Ratio of a branch's radius to its parent's that is still common: generators let branches start up to 1.2
+// times as thick as the place that they grow from.
+inline constexpr double k_thicker_child = 1.25;
+// Limbs with one possible parent that it takes to learn a file's habit; the spread, in radii of the parent,
+// that is assumed without, and the least that is believed (rounding of a thin twig's centre).
+inline constexpr std::size_t k_habit_limbs = 5;
+inline constexpr double k_habit_unknown = 0.25;
+inline constexpr double k_habit_least = 1e-3;
+// Costs, in spreads: a parent thinner by a factor e than it may be; a parent at its own buried base; a gap; a
+// root where something would hold it.
+inline constexpr double k_cost_too_thin = 3;
+inline constexpr double k_cost_buried = 2;
+inline constexpr double k_cost_float = 20;
+inline constexpr double k_cost_root = 30;
 
 }  // namespace copse

@@ -1,0 +1,32 @@
+// attach: which limb grows from which.
+#pragma once
+
+#include "lib/analysis/trunk/join.h"
+#include "lib/analysis/trunk/limbs.h"
+#include "lib/analysis/trunk/root.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace copse {
+
+struct Attachment {
+  std::uint32_t ring =
+      k_none;      // of the parent limb, alive: the end of the segment that is nearer; k_none: a root
+  double gap = 0;  // metres between the base's centre and the parent's surface; < 0 inside it
+};
+
+// Attaches every limb by its base (bases[limb], k_none where there is no such limb). The answer has one entry
+// a limb and no cycles.
+//
+// A generator or an artist sets all branches in the same way: on the parent's axis, or on its skin. So the
+// limbs with one possible parent tell how far from the axis, in radii of the parent, the bases of this file
+// lie and how much that varies; and where twigs cross and several parents are possible, the one that fits
+// this best is taken (with a penalty for parents that are thinner than the child, and for growing from the
+// buried start of a sibling). What touches nothing is a root, unless it floats a little above another limb. A
+// limb whose base is below the ground and that comes out of it is a root. O(n log n).
+std::vector<Attachment> attach(const Limbs& limbs, const LimbSegments& segments, const Ground& ground,
+                               std::span<const std::uint32_t> bases);
+
+}  // namespace copse

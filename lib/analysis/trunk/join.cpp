@@ -1,0 +1,131 @@
+#include "lib/analysis/trunk/join.h"
+
+#include "lib/analysis/trunk/components.h"
+#include "lib/analysis/trunk/tolerances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace copse {
+namespace {
+
+std::vector<std::array<std::uint32_t, 2>> segment_rings(const Limbs& limbs) {
+  std::vector<std::array<std::uint32_t, 2>> rings;
+  std::vector<std::uint8_t> has_child(limbs.rings(), 0);
+  for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
+    if (limbs.parent[r] != k_none) has_child[limbs.parent[r]] = 1;
+  }
+  for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
+    if (limbs.parent[r] != k_none) {
+      rings.push_back({limbs.parent[r], r});
+    } else if (!has_child[r]) {
+      rings.push_back({r, r});
+    }
+  }
+  return rings;
+}
+
+SegmentTree make_tree(const Limbs& limbs, std::span<const std::array<std::uint32_t, 2>> rings) {
+  std::vector<Segment> segments;
+  segments.reserve(rings.size());
+  for (const auto& [a, b] : rings) {
+    segments.push_back(
+        {limbs.centre[a], limbs.centre[b], limbs.diameter[a] / 2, limbs.diameter[b] / 2, limbs.limb[a]});
+  }
+  return SegmentTree(std::move(segments));
+}
+
+bool coincide(const Limbs& limbs, std::uint32_t a, std::uint32_t b) {
+  const double diameter = std::max(limbs.diameter[a], limbs.diameter[b]);
+  return diameter > 0 && distance(limbs.centre[a], limbs.centre[b]) <= k_join_tolerance * diameter / 2 &&
+         std::abs(limbs.diameter[a] - limbs.diameter[b]) <= k_join_tolerance * diameter;
+}
+
+// The ends at which their limbs clearly begin: all other ends are thinner.
+std::vector<std::uint8_t> clear_starts(const Limbs& limbs, std::span<const std::uint32_t> ends) {
+  std::vector<double> thickest(limbs.size, 0);
+  for (const std::uint32_t e : ends) {
+    thickest[limbs.limb[e]] = std::max(thickest[limbs.limb[e]], limbs.diameter[e]);
+  }
+  std::vector<std::uint32_t> thick_ends(limbs.size, 0);
+  std::vector<std::uint8_t> is_start(limbs.rings(), 0);
+  for (const std::uint32_t e : ends) {
+    is_start[e] = limbs.diameter[e] * k_like_thickness >= thickest[limbs.limb[e]];
+    thick_ends[limbs.limb[e]] += is_start[e];
+  }
+  for (const std::uint32_t e : ends) {
+    if (thick_ends[limbs.limb[e]] > 1) is_start[e] = 0;
+  }
+  return is_start;
+}
+
+// Limbs as they grow together: which are one, and how large they are.
+class Joints {
+ public:
+  explicit Joints(Limbs& limbs) : limbs_(limbs), sets_(limbs.size), rings_(limbs.size, 0) {
+    for (const std::uint32_t l : limbs.limb) ++rings_[l];
+  }
+
+  std::uint32_t find(std::uint32_t limb) { return sets_.find(limb); }
+
+  // The smaller limb is the one that is turned round: O(n log n) in all.
+  void merge(std::uint32_t a, std::uint32_t b) {
+    a = limbs_.alive(a), b = limbs_.alive(b);
+    const std::uint32_t limb_a = find(limbs_.limb[a]), limb_b = find(limbs_.limb[b]);
+    if (limb_a == limb_b) return;
+    if (rings_[limb_a] > rings_[limb_b] || (rings_[limb_a] == rings_[limb_b] && a < b)) std::swap(a, b);
+    merge_rings(limbs_, a, b);
+    sets_.unite(limb_a, limb_b);
+    rings_[find(limb_a)] = rings_[limb_a] + rings_[limb_b];
+  }
+
+ private:
+  Limbs& limbs_;
+  UnionFind sets_;
+  std::vector<std::uint32_t> rings_;
+};
+
+}  // namespace
+
+LimbSegments::LimbSegments(const Limbs& limbs) : rings(segment_rings(limbs)), tree(make_tree(limbs, rings)) {}
+
+std::vector<std::uint32_t> end_rings(const Limbs& limbs) {
+  std::vector<std::uint32_t> neighbours(limbs.rings(), 0);
+  for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
+    if (limbs.merged_into[r] != k_none || limbs.parent[r] == k_none) continue;
+    ++neighbours[r];
+    ++neighbours[limbs.parent_of(r)];
+  }
+  std::vector<std::uint32_t> ends;
+  for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
+    if (limbs.merged_into[r] == k_none && neighbours[r] <= 1) ends.push_back(r);
+  }
+  return ends;
+}
+
+void join(Limbs& limbs, LimbSegments& segments) {
+  Joints joints(limbs);
+  std::vector<Nearness> found;
+  const std::vector<std::uint32_t> ends = end_rings(limbs);
+  const std::vector<std::uint8_t> is_start = clear_starts(limbs, ends);
+  for (const std::uint32_t end : ends) {
+    const double radius = limbs.diameter[end] / 2;
+    if (radius <= 0) continue;
+    segments.tree.near(limbs.centre[end], k_join_tolerance * radius, radius, limbs.limb[end], k_candidates,
+                       found);
+    for (const Nearness& near : found) {
+      for (const std::uint32_t ring : segments.rings[near.segment]) {
+        // Two limbs that begin in one place are siblings, and grow side by side from something else.
+        if (is_start[end] && is_start[ring]) continue;
+        if (coincide(limbs, end, ring)) joints.merge(end, ring);
+      }
+    }
+  }
+  for (std::uint32_t& limb : limbs.limb) limb = joints.find(limb);
+  for (std::uint32_t s = 0; s < segments.rings.size(); ++s) {
+    segments.tree.set_limb(s, limbs.limb[segments.rings[s][0]]);
+  }
+}
+
+}  // namespace copse

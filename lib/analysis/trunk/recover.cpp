@@ -1,0 +1,192 @@
+#include "lib/analysis/trunk/recover.h"
+
+#include "lib/analysis/trunk/attach.h"
+#include "lib/analysis/trunk/fans.h"
+#include "lib/analysis/trunk/join.h"
+#include "lib/analysis/trunk/limbs.h"
+#include "lib/analysis/trunk/ring_reader.h"
+#include "lib/analysis/trunk/root.h"
+#include "lib/analysis/trunk/surfaces.h"
+#include "lib/analysis/trunk/welded.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace copse {
+namespace {
+
+void append_welded(const Hierarchy& part, std::span<const std::uint32_t> triangles, Limbs& limbs) {
+  const std::uint32_t base = limbs.rings();
+  for (std::uint32_t r = 0; r < part.radii.size(); ++r) {
+    const RadiusNode& node = part.radii[r];
+    const std::uint32_t first = part.first_vertex[r], end = part.first_vertex[r + 1];
+    limbs.append(node.centre, node.diameter, node.parent == k_none ? k_none : base + node.parent, node.source,
+                 std::span(part.ring_vertices).subspan(first, end - first));
+  }
+  ++limbs.size;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (part.segment_of[i] != k_none) limbs.owner[triangles[i]] = base + part.segment_of[i];
+  }
+  limbs.notes.insert(limbs.notes.end(), part.notes.begin(), part.notes.end());
+}
+
+Limbs read_limbs(const TrunkMesh& mesh, const RecoverOptions& options) {
+  Limbs limbs;
+  limbs.owner.assign(mesh.triangles.size(), k_none);
+  limbs.lid.assign(mesh.triangles.size(), 0);
+  const Fans fans = make_fans(mesh.positions.size(), mesh.triangles);
+  const Surfaces surfaces = make_surfaces(mesh);
+  RingReader reader(mesh, fans);
+  const WeldedOptions welded{options.skeleton == Skeleton::automatic ? WeldedMethod::automatic
+                             : options.skeleton == Skeleton::rings   ? WeldedMethod::rings
+                                                                     : WeldedMethod::surface};
+  std::uint32_t tubes = 0;
+  std::uint64_t welded_triangles = 0;
+  for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+    const auto triangles = surfaces.triangles(s);
+    if (options.skeleton != Skeleton::surface && reader.read(triangles, surfaces.vertices(s), limbs)) {
+      ++tubes;
+      continue;
+    }
+    append_welded(recover_welded(mesh, triangles, welded), triangles, limbs);
+    welded_triangles += triangles.size();
+  }
+  for (const auto& [triangle, original] : fans.repeated) {
+    limbs.owner[triangle] = limbs.owner[original];
+    limbs.lid[triangle] = limbs.lid[original];
+  }
+  limbs.notes.push_back(fmt::format("{} of {} surfaces read as rings; {} triangles lie in the others", tubes,
+                                    surfaces.size(), welded_triangles));
+  return limbs;
+}
+
+// The limbs, attached, in the order in which they are stored.
+class Assembly {
+ public:
+  Assembly(const Limbs& limbs, std::span<const Attachment> attachments)
+      : limbs_(limbs), parent_(limbs.rings(), k_none), id_(limbs.rings(), k_none) {
+    for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
+      if (limbs.merged_into[r] != k_none) continue;
+      parent_[r] = limbs.parent[r] != k_none ? limbs.parent_of(r) : attachments[limbs.limb[r]].ring;
+    }
+  }
+
+  Hierarchy run() {
+    list_children();
+    list_copies();
+    for (std::uint32_t r = 0; r < limbs_.rings(); ++r) {
+      if (limbs_.merged_into[r] == k_none && parent_[r] == k_none) store_tree(r);
+    }
+    name_segments();
+    hierarchy_.notes = limbs_.notes;
+    return std::move(hierarchy_);
+  }
+
+ private:
+  bool is_joint(std::uint32_t r) const { return limbs_.parent[r] == k_none && parent_[r] != k_none; }
+
+  // Children by parent: joints last, thicker before thinner, so that the first is the main line.
+  void list_children() {
+    first_child_.assign(limbs_.rings() + 1, 0);
+    for (const std::uint32_t p : parent_) {
+      if (p != k_none) ++first_child_[p + 1];
+    }
+    for (std::uint32_t r = 0; r < limbs_.rings(); ++r) first_child_[r + 1] += first_child_[r];
+    child_.resize(first_child_.back());
+    std::vector<std::uint32_t> next(first_child_.begin(), first_child_.end() - 1);
+    for (std::uint32_t r = 0; r < limbs_.rings(); ++r) {
+      if (parent_[r] != k_none) child_[next[parent_[r]]++] = r;
+    }
+    for (std::uint32_t r = 0; r < limbs_.rings(); ++r) {
+      std::ranges::sort(children(r), [&](std::uint32_t a, std::uint32_t b) {
+        if (is_joint(a) != is_joint(b)) return is_joint(b);
+        if (limbs_.diameter[a] != limbs_.diameter[b]) return limbs_.diameter[a] > limbs_.diameter[b];
+        return a < b;
+      });
+    }
+  }
+
+  std::span<std::uint32_t> children(std::uint32_t r) {
+    return std::span(child_).subspan(first_child_[r], first_child_[r + 1] - first_child_[r]);
+  }
+
+  void list_copies() {
+    for (std::uint32_t r = 0; r < limbs_.rings(); ++r) {
+      if (limbs_.merged_into[r] != k_none) copies_.emplace_back(limbs_.alive(r), r);
+    }
+    std::ranges::sort(copies_);
+  }
+
+  void store_tree(std::uint32_t root) {
+    std::vector<std::uint32_t> todo{root};
+    while (!todo.empty()) {
+      const std::uint32_t r = todo.back();
+      todo.pop_back();
+      store(r);
+      const auto below = children(r);
+      todo.insert(todo.end(), below.rbegin(), below.rend());
+    }
+  }
+
+  void store(std::uint32_t r) {
+    id_[r] = static_cast<std::uint32_t>(hierarchy_.radii.size());
+    RadiusNode& node = hierarchy_.radii.emplace_back();
+    node.centre = limbs_.centre[r];
+    node.diameter = limbs_.diameter[r];
+    node.source = limbs_.source[r];
+    node.joint = is_joint(r);
+    if (parent_[r] != k_none) node.parent = id_[parent_[r]];
+    const bool continues = parent_[r] != k_none && !node.joint && children(parent_[r]).front() == r;
+    node.branch = continues ? hierarchy_.radii[node.parent].branch : branches_++;
+    auto& vertices = hierarchy_.ring_vertices;
+    vertices.insert(vertices.end(), limbs_.ring(r).begin(), limbs_.ring(r).end());
+    for (auto c = std::ranges::lower_bound(copies_, std::pair(r, 0u)); c != copies_.end() && c->first == r;
+         ++c) {
+      vertices.insert(vertices.end(), limbs_.ring(c->second).begin(), limbs_.ring(c->second).end());
+    }
+    hierarchy_.first_vertex.push_back(static_cast<std::uint32_t>(vertices.size()));
+  }
+
+  void name_segments() {
+    std::vector<std::uint32_t> far(limbs_.rings(), k_none);  // of each band
+    for (std::uint32_t r = 0; r < limbs_.rings(); ++r) {
+      if (limbs_.merged_into[r] == k_none && limbs_.band[r] != k_none) far[limbs_.band[r]] = id_[r];
+    }
+    hierarchy_.segment_of.assign(limbs_.owner.size(), k_none);
+    for (std::size_t t = 0; t < limbs_.owner.size(); ++t) {
+      const std::uint32_t owner = limbs_.owner[t];
+      if (owner == k_none) continue;
+      hierarchy_.segment_of[t] = limbs_.lid[t] ? lid_segment(limbs_.alive(owner)) : far[owner];
+    }
+  }
+
+  std::uint32_t lid_segment(std::uint32_t ring) {
+    if (limbs_.parent[ring] != k_none) return id_[ring];
+    const auto below = children(ring);
+    return below.empty() || is_joint(below.front()) ? k_none : id_[below.front()];
+  }
+
+  const Limbs& limbs_;
+  std::vector<std::uint32_t> parent_, id_, first_child_, child_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> copies_;  // (alive ring, its copy)
+  std::uint32_t branches_ = 0;
+  Hierarchy hierarchy_;
+};
+
+}  // namespace
+
+Hierarchy recover_hierarchy(const TrunkMesh& mesh, const RecoverOptions& options) {
+  Limbs limbs = read_limbs(mesh, options);
+  LimbSegments segments(limbs);
+  if (limbs.size > 1) join(limbs, segments);
+  const Ground ground(limbs, mesh.positions);
+  const std::vector<std::uint32_t> bases = choose_bases(limbs, segments, ground);
+  for (const std::uint32_t base : bases) {
+    if (base != k_none) reroot(limbs, base);
+  }
+  const std::vector<Attachment> attachments = attach(limbs, segments, ground, bases);
+  return Assembly(limbs, attachments).run();
+}
+
+}  // namespace copse

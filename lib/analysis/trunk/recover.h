@@ -1,0 +1,28 @@
+// recover: the whole trunk, from triangles to one or more hierarchies of radii.
+#pragma once
+
+#include "lib/analysis/trunk/hierarchy.h"
+#include "lib/analysis/trunk/trunk_mesh.h"
+
+#include <cstdint>
+
+namespace copse {
+
+enum class Skeleton : std::uint8_t {
+  automatic,  // rings where a surface shows them, a surface skeleton where it does not
+  rings,      // rings only; surfaces without stay unexplained
+  surface,    // a surface skeleton everywhere
+};
+
+struct RecoverOptions {
+  Skeleton skeleton = Skeleton::automatic;
+};
+
+// Reads every surface as a limb (ring_reader.h, else welded.h), joins limbs that are laid end to end
+// (join.h), finds where each begins (root.h) and what it grows from (attach.h). Parents come before children,
+// the main line of a branch before its side branches. segment_of names a segment for all triangles of bands
+// and lids; a lid counts to the segment that ends in its ring. Never fails; near-linear in time; memory
+// linear; no recursion.
+Hierarchy recover_hierarchy(const TrunkMesh& mesh, const RecoverOptions& options = {});
+
+}  // namespace copse

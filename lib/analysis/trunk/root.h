@@ -1,0 +1,31 @@
+// root: at which end a limb begins.
+#pragma once
+
+#include "lib/analysis/trunk/join.h"
+#include "lib/analysis/trunk/limbs.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace copse {
+
+// The ground rule of digest 000, section 1.1: a radius whose vertices all have negative y is below the
+// ground, and a root. It only means something where y = 0 is the ground: where the trunk dips a little below
+// it, not where the model was centred on the origin (tolerances.h: k_ground_depth).
+class Ground {
+ public:
+  Ground(const Limbs& limbs, std::span<const Double3> positions);
+  bool is_below(std::uint32_t ring) const { return below_[ring] != 0; }
+
+ private:
+  std::vector<std::uint8_t> below_;  // one a ring; all 0 where the rule means nothing
+};
+
+// The ring that each limb begins with; k_none for limb numbers that joining has emptied. A limb begins at its
+// thickest end. Between ends of like thickness: below the ground, then where it lies in or against another
+// limb, then the lower one, then the one that the file has first.
+std::vector<std::uint32_t> choose_bases(const Limbs& limbs, const LimbSegments& segments,
+                                        const Ground& ground);
+
+}  // namespace copse

@@ -1,0 +1,152 @@
+#include "lib/analysis/trunk/segment_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace copse {
+namespace {
+
+constexpr std::uint32_t k_leaf_size = 4;
+
+double distance_to(const DoubleBox& box, const Double3& p) {
+  const auto outside = [](double low, double high, double x) { return std::max({low - x, x - high, 0.0}); };
+  return length(Double3{outside(box.min.x, box.max.x, p.x), outside(box.min.y, box.max.y, p.y),
+                        outside(box.min.z, box.max.z, p.z)});
+}
+
+int longest_axis(const DoubleBox& box) {
+  const Double3 e = box.extent();
+  return e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
+}
+
+}  // namespace
+
+Nearness nearness(std::span<const Segment> segments, std::uint32_t segment, const Double3& point) {
+  const Segment& s = segments[segment];
+  const Double3 axis = s.b - s.a;
+  const double axis_length = length(axis);
+  Nearness near{segment, 0, 0, 0};
+  if (axis_length > 0) {
+    near.t = std::clamp(dot(axis / axis_length, (point - s.a) / axis_length), 0.0, 1.0);
+  }
+  near.distance = distance(point, s.a + axis * near.t);
+  near.radius = s.radius_a + (s.radius_b - s.radius_a) * near.t;
+  return near;
+}
+
+SegmentTree::SegmentTree(std::vector<Segment> segments) : segments_(std::move(segments)) {
+  build();
+}
+
+void SegmentTree::build() {
+  order_.resize(segments_.size());
+  for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
+  if (order_.empty()) return;
+  struct Range {
+    std::uint32_t begin, end, parent;  // parent: whose right child this is, or itself for none
+  };
+  std::vector<Range> todo{{0, static_cast<std::uint32_t>(order_.size()), 0}};
+  while (!todo.empty()) {
+    const Range range = todo.back();
+    todo.pop_back();
+    const auto id = static_cast<std::uint32_t>(nodes_.size());
+    Node& node = nodes_.emplace_back();
+    if (range.parent != id) nodes_[range.parent].first = id;
+    DoubleBox middles;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      const Segment& s = segments_[order_[i]];
+      node.box.grow(s.a), node.box.grow(s.b);
+      node.radius = std::max({node.radius, s.radius_a, s.radius_b});
+      middles.grow(s.a * 0.5 + s.b * 0.5);
+    }
+    if (range.end - range.begin <= k_leaf_size) {
+      node.first = range.begin;
+      node.count = range.end - range.begin;
+      continue;
+    }
+    const int axis = longest_axis(middles);
+    const std::uint32_t middle = range.begin + (range.end - range.begin) / 2;
+    const auto at = [&](std::uint32_t s) {
+      return std::pair(segments_[s].a[axis] * 0.5 + segments_[s].b[axis] * 0.5, s);
+    };
+    std::nth_element(order_.begin() + range.begin, order_.begin() + middle, order_.begin() + range.end,
+                     [&](std::uint32_t x, std::uint32_t y) { return at(x) < at(y); });
+    todo.push_back({middle, range.end, id});
+    todo.push_back({range.begin, middle, id + 1});  // becomes node id + 1: the left child
+  }
+}
+
+void SegmentTree::near(const Double3& point, double reach, double least_radius, std::uint32_t except,
+                       std::size_t count, std::vector<Nearness>& found) const {
+  found.clear();
+  if (nodes_.empty() || count == 0) return;
+  const auto key = [&](const Nearness& n) {
+    const double radius = std::max(n.radius, least_radius);
+    return std::pair(radius > 0       ? n.distance / radius
+                     : n.distance > 0 ? std::numeric_limits<double>::infinity()
+                                      : 0.0,
+                     n.segment);
+  };
+  const auto insert = [&](const Nearness& n) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (segments_[found[i].segment].limb != segments_[n.segment].limb) continue;
+      if (key(n) >= key(found[i])) return;
+      found.erase(found.begin() + static_cast<std::ptrdiff_t>(i));
+      break;
+    }
+    const auto at = std::ranges::upper_bound(found, key(n), {}, key);
+    found.insert(at, n);
+    if (found.size() > count) found.pop_back();
+  };
+  std::vector<std::uint32_t> todo{0};
+  while (!todo.empty()) {
+    const std::uint32_t id = todo.back();
+    todo.pop_back();
+    const Node& node = nodes_[id];
+    const double d = distance_to(node.box, point);
+    if (d > node.radius + reach) continue;
+    const double widest = std::max(node.radius, least_radius);
+    if (found.size() == count && d > key(found.back()).first * widest) continue;
+    if (node.count == 0) {
+      todo.push_back(node.first);
+      todo.push_back(id + 1);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (segments_[order_[i]].limb == except) continue;
+      const Nearness n = nearness(segments_, order_[i], point);
+      if (n.gap() <= reach) insert(n);
+    }
+  }
+}
+
+bool SegmentTree::nearest(const Double3& point, double reach, std::uint32_t except, Nearness& found) const {
+  bool any = false;
+  std::vector<std::uint32_t> todo;
+  if (!nodes_.empty()) todo.push_back(0);
+  while (!todo.empty()) {
+    const std::uint32_t id = todo.back();
+    todo.pop_back();
+    const Node& node = nodes_[id];
+    if (distance_to(node.box, point) - node.radius > (any ? found.gap() : reach)) continue;
+    if (node.count == 0) {
+      std::uint32_t near = id + 1, far = node.first;
+      if (distance_to(nodes_[far].box, point) < distance_to(nodes_[near].box, point)) std::swap(near, far);
+      todo.push_back(far);
+      todo.push_back(near);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (segments_[order_[i]].limb == except) continue;
+      const Nearness n = nearness(segments_, order_[i], point);
+      if (n.gap() > reach) continue;
+      if (!any || std::pair(n.gap(), n.segment) < std::pair(found.gap(), found.segment))
+        found = n, any = true;
+    }
+  }
+  return any;
+}
+
+}  // namespace copse

@@ -1,0 +1,20 @@
+// sew: which pieces of a surface that was cut up by its exporter belong together.
+#pragma once
+
+#include "lib/formats/mesh.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace copse {
+
+// `triangles`: corners as welded representatives; `piece`: the piece of each, numbered from 0. Returns the
+// surface of each piece: the lowest piece that it is sewn to.
+// - Pieces whose boundary edges coincide are sewn. (A boundary edge belongs to one triangle of its piece.)
+// - A piece whose closed boundary loop coincides edge by edge with inner edges of another is sewn to it: a
+//   branch that starts on a ring of its parent.
+// - Pieces that share single points, or edges inside both, only touch.
+std::vector<std::uint32_t> sew(std::span<const Triangle> triangles, std::span<const std::uint32_t> piece);
+
+}  // namespace copse
