@@ -5,7 +5,10 @@
 #include "lib/formats/import/gltf/gltf.h"
 #include "lib/formats/import/mesh_builder.h"
 #include "lib/formats/import/obj.h"
+#include "lib/formats/import/off.h"
+#include "lib/formats/import/ply.h"
 #include "lib/formats/import/source.h"
+#include "lib/formats/import/stl.h"
 
 #include <new>
 #include <string_view>
@@ -23,10 +26,16 @@ bool read_format(MeshFormat format, std::span<const std::uint8_t> bytes, const C
   switch (format) {
     case MeshFormat::obj:
       return read_obj(as_text(bytes), companions, builder);
+    case MeshFormat::ply:
+      return read_ply(as_text(bytes), builder);
+    case MeshFormat::off:
+      return read_off(as_text(bytes), builder);
+    case MeshFormat::stl:
+      return read_stl(bytes, builder);
     case MeshFormat::gltf:
     case MeshFormat::glb:
       return read_gltf(bytes, companions, options.instance_limit, builder);
-    default:
+    case MeshFormat::unknown:
       break;
   }
   return builder.refuse("is of no mesh format that is read here",
@@ -46,7 +55,8 @@ Result<Import> import_bytes(std::span<const std::uint8_t> stored, MeshFormat for
   if (bytes.empty()) return refuse(name, "is empty", "export the mesh again");
   MeshBuilder builder(name, bytes.size(), options.strict);
   if (format == MeshFormat::unknown) format = detect_format(bytes, name);
-  read_format(format, bytes, companions, options, builder);
+  if (!read_format(format, bytes, companions, options, builder) && !builder.refused())
+    return fail(Fault::bug, name, "was refused without a reason", "report this with the file");
   Result<Import> import = builder.finish(format);
   if (import) import->bytes = stored.size();
   return import;
