@@ -1,0 +1,88 @@
+#include "tools/treeplay/overlay.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+namespace copse::treeplay {
+
+Overlay::Overlay(GLFWwindow* window) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+  ImGui::StyleColorsDark();
+  ImGui::GetStyle().WindowRounding = 6;
+  ImGui_ImplGlfw_InitForOpenGL(window, true);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Overlay::~Overlay() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+namespace {
+
+constexpr ImGuiWindowFlags k_panel = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                                     ImGuiWindowFlags_NoInputs;
+
+void facts_panel(const Overlay::Facts& facts) {
+  ImGui::SetNextWindowPos({12, 12});
+  ImGui::SetNextWindowBgAlpha(0.55f);
+  ImGui::Begin("facts", nullptr, k_panel);
+  const Scene& scene = *facts.scene;
+  ImGui::TextUnformatted(scene.name.c_str());
+  const double ms = facts.frame_seconds * 1e3;
+  ImGui::Text("%.1f ms a frame (%.0f a second)", ms, ms > 0 ? 1e3 / ms : 0);
+  ImGui::Text("%llu triangles, %zu vertices", static_cast<unsigned long long>(scene.triangles()),
+              scene.geometry.vertices.size());
+  if (scene.skeleton) {
+    ImGui::Text("%zu radii, %zu levels, %zu leaves in %zu groups", scene.skeleton->points.size(),
+                std::size_t{scene.skeleton->levels}, scene.skeleton->leaves.size(),
+                scene.skeleton->groups.size());
+  }
+  ImGui::Text("drawn: %llu triangles, %llu lines, %llu points",
+              static_cast<unsigned long long>(facts.plan->triangles),
+              static_cast<unsigned long long>(facts.plan->lines),
+              static_cast<unsigned long long>(facts.plan->points));
+  ImGui::TextDisabled("%s", facts.renderer);
+  if (*facts.message) ImGui::TextUnformatted(facts.message);
+  ImGui::TextDisabled("H: help");
+  ImGui::End();
+}
+
+void help_panel() {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowBgAlpha(0.8f);
+  ImGui::Begin("help", nullptr, k_panel);
+  ImGui::TextUnformatted(
+      "drag, left     turn round the tree\n"
+      "drag, right    slide\n"
+      "wheel          nearer, farther\n"
+      "F              fit the whole tree\n"
+      "1 2 3 4        surface, skeleton, both, groups of leaves\n"
+      "L              light on and off\n"
+      "G              ground on and off\n"
+      "P              follow --path, stop\n"
+      "S              screenshot into this folder\n"
+      "H              this help\n"
+      "Q, Esc         close");
+  ImGui::End();
+}
+
+}  // namespace
+
+void Overlay::draw(const Facts& facts) {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+  facts_panel(facts);
+  if (facts.help) help_panel();
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace copse::treeplay

@@ -1,0 +1,155 @@
+#include "tools/treeplay/play.h"
+
+#include "tools/treeplay/framing.h"
+#include "tools/treeplay/headless.h"
+#include "tools/treeplay/scene.h"
+#include "tools/treeplay/statistics.h"
+#include "tools/treeplay/viewer.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstdlib>
+#include <string_view>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+namespace copse::treeplay {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+bool has_display() {
+  const auto is_set = [](const char* name) {
+    const char* value = std::getenv(name);
+    return value && *value;
+  };
+  return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
+}
+
+// A picture as the bytes of a file; PNG is made in memory, so that all frames of a run appear together.
+Result<void> write_frame(const fs::path& path, const Image& image, Context& context) {
+  const auto png = encode_png(image);
+  if (!png) return std::unexpected(png.error());
+  return context.write(path, {reinterpret_cast<const char*>(png->data()), png->size()});
+}
+
+Result<void> check_frames(const Plan& plan, Context& context) {
+  if (!plan.frames) return {};
+  const fs::path first = plan.frames->name(0);
+  std::string extension = first.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".png") {
+    return fail(Fault::usage, first.string(), "is not the name of a PNG picture", "let --frames end in .png");
+  }
+  return context.check_output(first);
+}
+
+Result<void> check_size(const Renderer& renderer, const Plan& plan) {
+  const int largest = renderer.largest_size();
+  if (plan.width <= largest && plan.height <= largest) return {};
+  return fail(Fault::usage, "",
+              fmt::format("--size {}x{} is more than this graphics driver can draw", plan.width, plan.height),
+              fmt::format("ask for at most {0}x{0}", largest));
+}
+
+Result<void> draw_frames(Renderer& renderer, const CameraPath& path, const Plan& plan, Statistics& statistics,
+                         Context& context) {
+  Stage stage = context.stage("frames");
+  for (std::uint64_t i = 0; i < plan.count; ++i) {
+    const auto start = Clock::now();
+    const FramePlan frame =
+        renderer.plan(path.at(path.moment(i, plan.count)), plan.look, plan.width, plan.height);
+    const auto decided = Clock::now();
+    if (auto done = renderer.draw_picture(frame); !done) return done;
+    glFinish();
+    statistics.add(frame, seconds(start, decided), seconds(decided, Clock::now()));
+    if (plan.frames) {
+      if (auto done = write_frame(plan.frames->name(i), renderer.read_picture(), context); !done) return done;
+    }
+    stage.progress(static_cast<double>(i + 1) / static_cast<double>(plan.count));
+  }
+  stage.items(plan.count, "frames");
+  return {};
+}
+
+Result<void> run_headless(const Scene& scene, const CameraPath& path, const Plan& plan,
+                          Statistics& statistics, Context& context) {
+  std::unique_ptr<GlContext> gl;
+  {
+    Stage stage = context.stage("open graphics");
+    auto made = make_headless(context.options().jobs);
+    if (!made) return std::unexpected(made.error());
+    gl = std::move(*made);
+  }
+  context.report().options.emplace_back("renderer", gl->renderer());
+  std::unique_ptr<Renderer> renderer;
+  {
+    Stage stage = context.stage("upload");
+    auto made = Renderer::make(scene, plan.settings);
+    if (!made) return std::unexpected(made.error());
+    renderer = std::move(*made);
+    if (auto done = check_size(*renderer, plan); !done) return done;
+    // A first small frame lets the driver finish its shaders, so that the first one measured is like the
+    // rest.
+    if (auto done = renderer->draw_picture(renderer->plan(path.at(0), plan.look, 16, 16)); !done) return done;
+    glFinish();
+  }
+  return draw_frames(*renderer, path, plan, statistics, context);
+}
+
+}  // namespace
+
+ToolInfo info() {
+  return {.name = "treeplay",
+          .summary =
+              "Draws a tree in a window, or into pictures without a display: its surface with materials, "
+              "its skeleton as lines and points, its groups of leaves as spheres.",
+          .examples = {{"treeplay oak.stree", "look at a tree; H shows the keys"},
+                       {"treeplay oak.stree --frames 'out/%04d.png' --path orbit --count 90 --size 1280x720",
+                        "once round it, into 90 pictures"},
+                       {"treeplay oak.stree --show skeleton --frames skeleton.png",
+                        "its hierarchy as lines and points"}},
+          .limits = {{"side of a picture", k_largest_side, "pixels"},
+                     {"frames of a run", k_most_frames, "frames"},
+                     {"samples a pixel", 256, "samples"}}};
+}
+
+Result<void> run(const Options& options, Context& context) {
+  const auto plan = understand(options);
+  if (!plan) return std::unexpected(plan.error());
+  if (auto done = check_frames(*plan, context); !done) return done;
+  const bool window = !plan->frames && !options.headless && has_display();
+  if (!window && !plan->frames && !options.headless) {
+    return fail(Fault::usage, "", "there is no display to open a window on",
+                "write pictures with --frames NAME.png, or only measure with --headless");
+  }
+  const auto scene = load_scene(options.input, context);
+  if (!scene) return std::unexpected(scene.error());
+  if (plan->look.show != Show::surface && !scene->skeleton) {
+    return fail(Fault::usage, options.input.string(), "is a mesh and has no hierarchy to show",
+                "make a tree of it with treeprep, or leave --show out");
+  }
+  const double aspect = static_cast<double>(plan->width) / plan->height;
+  const auto path = make_path(options, plan->camera.value_or(framing(*scene, aspect)));
+  if (!path) return std::unexpected(path.error());
+  if (options.path.ends_with(".json")) context.read(options.path, true);
+
+  Statistics statistics;
+  const auto done = window ? run_viewer(*scene, *path, options, *plan, statistics, context)
+                           : run_headless(*scene, *path, *plan, statistics, context);
+  if (!done) return done;
+  context.report().tables.push_back(statistics.table());
+  if (options.stats.empty()) return {};
+  return context.write(options.stats, statistics.csv());
+}
+
+}  // namespace copse::treeplay

@@ -1,0 +1,94 @@
+// Draws a scene: shadow map, surfaces, sky and ground, skeleton; multisampled, in tiles when the picture is
+// larger than what fits, and resolved to sRGB. The same picture from run to run on the same driver.
+#pragma once
+
+#include "lib/runtime/camera.h"
+#include "tools/treeplay/gl.h"
+#include "tools/treeplay/scene.h"
+#include "tools/treeplay/skeleton_pass.h"
+#include "tools/treeplay/surface_pass.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace copse::treeplay {
+
+enum class Show { surface, skeleton, both, groups };
+enum class Backdrop { automatic, sky, studio, white, black };
+
+struct Look {
+  Show show = Show::surface;
+  Backdrop backdrop = Backdrop::automatic;  // sky for surfaces, studio for everything else
+  bool lit = true;
+  bool ground = true;  // never under a skeleton
+};
+
+struct RenderSettings {
+  int samples = 4;         // a pixel: 1, 4, or 4 n^2
+  Double3 sun{0, 1, 0};    // towards it; length 1, y > 0
+  int shadow_size = 4096;  // texels a side
+};
+
+// A picture that is about to be drawn: everything that the application decides.
+struct FramePlan {
+  Look look;
+  View view;
+  int width = 0, height = 0;
+  bool tree_visible = true;
+  // What was done and what will be drawn, for the statistics.
+  std::uint64_t triangles = 0, lines = 0, points = 0;
+  std::uint64_t instances_tested = 0, instances_drawn = 0, plane_tests = 0;
+};
+
+class Renderer {
+ public:
+  // Uploads the scene, which must outlive the renderer. Needs a current context of GL 3.3 core.
+  static Result<std::unique_ptr<Renderer>> make(const Scene& scene, const RenderSettings& settings);
+
+  FramePlan plan(const Camera& camera, const Look& look, int width, int height) const;
+
+  // Into a framebuffer of the plan's size: 0 is the window.
+  Result<void> draw(const FramePlan& plan, GLuint framebuffer);
+
+  // Into the renderer's own picture; read_picture() fetches it.
+  Result<void> draw_picture(const FramePlan& plan);
+  Image read_picture() const;
+
+  int largest_size() const { return largest_size_; }
+
+ private:
+  struct Tile;
+  explicit Renderer(const Scene& scene, const RenderSettings& settings);
+  Result<void> make_programs();
+  Result<void> make_lights();
+  void draw_shadow_map();
+  Result<void> fit_tile_buffers(int width, int height);
+  void set_common(const Program& program, const Tile& tile) const;
+  void draw_tile(const FramePlan& plan, const Tile& tile);
+  void draw_surfaces(const FramePlan& plan, const Tile& tile, float ghost) const;
+  void draw_backdrop(const FramePlan& plan, const Tile& tile) const;
+  void draw_skeleton(const FramePlan& plan, const Tile& tile);
+  void resolve(const Tile& tile, GLuint framebuffer) const;
+
+  const Scene& scene_;
+  RenderSettings settings_;
+  int sub_pixels_ = 1;    // a side
+  int multisamples_ = 1;  // what the driver gives
+  int largest_size_ = 0;
+  SurfacePass surfaces_;
+  SkeletonPass skeleton_;
+  Program ground_, backdrop_, resolve_;
+  VertexArray no_vertices_;
+  Mat4 shadow_matrix_;  // local -> [0, 1]^3
+  Float2 shadow_reach_{1, 1};
+  Texture2 shadow_texture_, sky_texture_;
+  Sampler compare_sampler_, depth_sampler_;
+  int tile_width_ = 0, tile_height_ = 0;  // in fragments
+  Texture2 tile_colour_, tile_depth_;
+  Framebuffer tile_framebuffer_;
+  int picture_width_ = 0, picture_height_ = 0;
+  Texture2 picture_;
+  Framebuffer picture_framebuffer_;
+};
+
+}  // namespace copse::treeplay

@@ -1,0 +1,198 @@
+#include "tools/treeplay/shaders.h"
+
+namespace copse::treeplay::shaders {
+
+const std::string_view k_common = R"(
+const float k_pi = 3.14159265;
+
+uniform vec3 sun_direction;         // towards the sun
+uniform sampler2DShadow shadow_map; // compares
+uniform sampler2D shadow_depth;     // the same texture, as depths
+uniform mat4 shadow_matrix;         // local -> [0, 1]^3
+uniform vec2 shadow_reach;          // width of the map and depth of its box, m
+uniform sampler3D sky_grid;
+uniform vec3 sky_corner, sky_extent;
+uniform vec2 tile_corner;           // of this tile in the whole image, in fragments
+
+const vec3 k_sun_colour = vec3(1.0, 0.89, 0.72) * 2.75;
+const vec3 k_sky_colour = vec3(0.56, 0.70, 0.95) * 0.95;  // what an upright white surface gets from an open sky
+const vec3 k_ground_colour = vec3(0.098, 0.122, 0.044);
+const float k_sun_spread = 0.011;   // tangent of half the sun's angle; about twice the real sun's
+
+uint hash(uint x) {
+  x ^= x >> 16; x *= 0x7feb352du;
+  x ^= x >> 15; x *= 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+float random(uvec2 p) { return float(hash(p.x + hash(p.y)) >> 8) / 16777216.0; }
+uvec2 pixel() { return uvec2(gl_FragCoord.xy + tile_corner); }
+
+// Exact below one half, then a shoulder that reaches 1 at infinity; its slope is continuous.
+vec3 tone(vec3 c) {
+  vec3 x = max(c, vec3(0.0));
+  return mix(x, 1.0 - 0.5 * exp(1.0 - 2.0 * x), vec3(greaterThan(x, vec3(0.5))));
+}
+
+float value_noise(vec2 p) {
+  vec2 cell = floor(p), f = fract(p);
+  f = f * f * (3.0 - 2.0 * f);
+  uvec2 i = uvec2(ivec2(cell));
+  return mix(mix(random(i), random(i + uvec2(1u, 0u)), f.x),
+             mix(random(i + uvec2(0u, 1u)), random(i + uvec2(1u, 1u)), f.x), f.y);
+}
+
+vec3 sky(vec3 d) {
+  const vec3 k_horizon = vec3(0.68, 0.82, 0.93), k_zenith = vec3(0.06, 0.185, 0.50);
+  vec3 c = mix(k_horizon, k_zenith, pow(clamp(d.y, 0.0, 1.0), 0.44));
+  // High thin clouds on a plane, lost in the haze of the horizon.
+  if (d.y > 0.01) {
+    vec2 at = d.xz / (d.y + 0.06) * vec2(0.9, 1.5);
+    float n = 0.0, weight = 0.5;
+    for (int i = 0; i < 5; ++i) {
+      n += weight * value_noise(at + 37.0);
+      at = mat2(1.6, 1.2, -1.2, 1.6) * at + 11.0;
+      weight *= 0.5;
+    }
+    float cloud = smoothstep(0.50, 0.85, n) * smoothstep(0.01, 0.22, d.y);
+    c = mix(c, vec3(0.95, 0.96, 0.98), 0.55 * cloud);
+  }
+  float towards = max(dot(d, sun_direction), 0.0);
+  return c + k_sun_colour * (0.05 * pow(towards, 6.0) + 0.08 * pow(towards, 60.0));
+}
+
+// Point i of n, spread evenly over the unit disc.
+vec2 disc_point(int i, int n, float turn) {
+  float r = sqrt((float(i) + 0.5) / float(n)), a = float(i) * 2.399963 + turn;
+  return r * vec2(cos(a), sin(a));
+}
+
+// The share of the sun that reaches a point: sharp where the shadow is cast from near, soft from afar.
+float sunlight(vec3 local, vec3 normal) {
+  float texel = shadow_reach.x / float(textureSize(shadow_depth, 0).x);
+  float grazing = 1.0 - abs(dot(normal, sun_direction));
+  vec3 p = (shadow_matrix * vec4(local + normal * texel * (1.0 + 2.0 * grazing), 1.0)).xyz;
+  if (any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)))) return 1.0;
+  float bias = texel / shadow_reach.y;
+  float turn = 2.0 * k_pi * random(pixel());
+  float widest = k_sun_spread * p.z * shadow_reach.y / shadow_reach.x;
+  float blockers = 0.0, depth = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    float d = textureLod(shadow_depth, p.xy + widest * disc_point(i, 8, turn), 0.0).r;
+    if (d < p.z - bias) { blockers += 1.0; depth += d; }
+  }
+  float gap = blockers > 0.0 ? p.z - depth / blockers : 0.0;
+  float wide = k_sun_spread * gap * shadow_reach.y / shadow_reach.x;
+  wide = clamp(wide, 1.3 * texel / shadow_reach.x, widest + 2.0 * texel / shadow_reach.x);
+  float lit = 0.0;
+  for (int i = 0; i < 12; ++i) {
+    lit += textureLod(shadow_map, vec3(p.xy + wide * disc_point(i, 12, turn + 1.0), p.z - bias), 0.0);
+  }
+  return lit / 12.0;
+}
+
+// What the sky sends to a surface here: (x, y, z, w) of SkyLight, faded to the open sky at the grid's border.
+vec4 sky_at(vec3 local) {
+  vec3 at = (local - sky_corner) / sky_extent;
+  vec3 border = abs(at * 2.0 - 1.0);
+  float open = smoothstep(0.7, 1.0, max(border.x, max(border.y, border.z)));
+  return mix(texture(sky_grid, at), vec4(0.0, 0.5, 0.0, 0.5), open);
+}
+float skylight(vec4 sky_here, vec3 normal) { return max(0.0, sky_here.w + dot(sky_here.xyz, normal)); }
+)";
+
+const std::string_view k_ground_vertex = R"(
+uniform mat4 clip;
+uniform vec3 offset, ground_centre;  // local
+uniform float ground_reach;
+out vec3 v_local;
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  v_local = ground_centre + vec3(corner.x, 0.0, corner.y) * ground_reach;
+  gl_Position = clip * vec4(v_local + offset, 1.0);
+}
+)";
+
+const std::string_view k_ground_fragment = R"(
+uniform vec3 offset, ground_centre;
+uniform float ground_scale;  // the size of what stands on it
+uniform bool studio;
+in vec3 v_local;
+out vec4 colour;
+
+void main() {
+  vec3 relative = v_local + offset;
+  vec3 towards = normalize(relative);
+  vec2 at = (v_local - ground_centre).xz / ground_scale;
+  float away = length(at);
+  // Patches, tufts and grain; each fades out before it gets finer than a fragment.
+  float fine = length(fwidth(at));
+  float patches = value_noise(at * 1.7 + 5.0) + 0.5 * value_noise(at * 4.1 + 9.0) - 0.75;
+  float grain = 0.0, weight = 0.5;
+  for (float f = 23.0; f < 2500.0; f *= 2.7) {
+    grain += weight * (value_noise(at * f + f) - 0.5) * (1.0 - smoothstep(0.25, 1.1, fine * f));
+    weight *= 0.85;
+  }
+  vec3 albedo = k_ground_colour * (1.0 + 0.22 * patches + 0.75 * grain);
+  albedo = mix(albedo, albedo * vec3(1.34, 1.06, 0.80), smoothstep(-0.5, 0.7, patches + 0.8 * grain));
+  if (studio) albedo = vec3(0.62);
+  const vec3 k_up = vec3(0.0, 1.0, 0.0);
+  float sun = sunlight(v_local, k_up) * max(sun_direction.y, 0.0);
+  vec4 here = sky_at(vec3(v_local.x, v_local.y + 0.02 * ground_scale, v_local.z));
+  vec3 lit = albedo * (k_sun_colour * sun + k_sky_colour * skylight(here, k_up));
+  if (studio) {
+    // Only the shadow is kept, on the studio's white.
+    float full = dot(albedo * (k_sun_colour * sun_direction.y + k_sky_colour), vec3(1.0));
+    float kept = dot(lit, vec3(1.0)) / full;
+    float fade = smoothstep(0.6, 2.2, away);
+    colour = vec4(vec3(0.0), (1.0 - kept) * 0.5 * (1.0 - fade));
+    return;
+  }
+  float haze = 1.0 - exp(-pow(away / 13.0, 1.5));
+  colour = vec4(tone(mix(lit, sky(normalize(vec3(towards.x, 0.02, towards.z))), haze)), 1.0);
+}
+)";
+
+const std::string_view k_screen_vertex = R"(
+out vec2 v_at;  // -1 to 1
+void main() {
+  v_at = vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID >> 1) * 4 - 1);
+  gl_Position = vec4(v_at, 1.0, 1.0);
+}
+)";
+
+const std::string_view k_backdrop_fragment = R"(
+uniform vec3 ray_centre, ray_across, ray_up;  // of this tile
+uniform int backdrop;                         // 0 sky, 1 studio, 2 plain
+uniform vec3 plain;
+in vec2 v_at;
+out vec4 colour;
+void main() {
+  vec3 d = normalize(ray_centre + v_at.x * ray_across + v_at.y * ray_up);
+  vec3 c = plain;
+  if (backdrop == 0) c = tone(sky(d));
+  if (backdrop == 1) c = mix(vec3(0.93, 0.935, 0.94), vec3(0.72, 0.75, 0.79), smoothstep(-0.1, 0.9, d.y));
+  // Half a step of noise hides the steps of eight bits.
+  if (backdrop != 2) c += (random(pixel()) - 0.5) / 255.0 * (0.4 + c);
+  colour = vec4(c, 1.0);
+}
+)";
+
+const std::string_view k_resolve_fragment = R"(
+uniform sampler2DMS samples;
+uniform int sample_count, sub_pixels;  // sub_pixels: a side
+uniform ivec2 tile_origin;             // where the tile starts in the target
+out vec4 colour;
+vec3 encode(vec3 c) {
+  return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, vec3(greaterThan(c, vec3(0.0031308))));
+}
+void main() {
+  ivec2 first = (ivec2(gl_FragCoord.xy) - tile_origin) * sub_pixels;
+  vec3 sum = vec3(0.0);
+  for (int y = 0; y < sub_pixels; ++y)
+    for (int x = 0; x < sub_pixels; ++x)
+      for (int s = 0; s < sample_count; ++s) sum += texelFetch(samples, first + ivec2(x, y), s).rgb;
+  colour = vec4(encode(clamp(sum / float(sample_count * sub_pixels * sub_pixels), 0.0, 1.0)), 1.0);
+}
+)";
+
+}  // namespace copse::treeplay::shaders

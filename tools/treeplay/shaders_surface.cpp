@@ -1,0 +1,104 @@
+#include "tools/treeplay/shaders.h"
+
+namespace copse::treeplay::shaders {
+
+const std::string_view k_surface_vertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 texcoord;
+uniform mat4 clip;
+uniform vec3 offset;
+out vec3 v_local, v_normal;
+out vec2 v_texcoord;
+invariant gl_Position;  // both passes must agree to the bit
+void main() {
+  v_local = position;
+  v_normal = normal;
+  v_texcoord = vec2(texcoord.x, 1.0 - texcoord.y);  // images start at the top
+  gl_Position = clip * vec4(position + offset, 1.0);
+}
+)";
+
+const std::string_view k_coverage_fragment = R"(
+uniform sampler2D image;
+uniform float cutoff, opacity;
+uniform bool multisampled;
+in vec2 v_texcoord;
+out vec4 colour;
+void main() {
+  float a = texture(image, v_texcoord).a;
+  // The cut is one fragment wide, centred where alpha crosses the cutoff.
+  float covered = cutoff > 0.0 ? clamp((a * opacity - cutoff) / max(fwidth(a), 1e-4) + 0.5, 0.0, 1.0) : opacity;
+  if (multisampled ? covered <= 0.0 : covered < 0.5) discard;
+  colour = vec4(0.0, 0.0, 0.0, covered);
+}
+)";
+
+const std::string_view k_surface_fragment = R"(
+uniform sampler2D image;
+uniform vec3 offset;
+uniform vec3 diffuse, specular, emission;
+uniform float shininess;
+uniform float thin;   // 1 for leaves: light shines through
+uniform bool lit;
+uniform float ghost;  // towards the backdrop, so that lines drawn over it stand out
+in vec3 v_local, v_normal;
+in vec2 v_texcoord;
+out vec4 colour;
+
+vec3 shade(vec3 albedo) {
+  vec3 view = -normalize(v_local + offset);
+  // The side that is seen decides where the normal points, whatever the winding.
+  vec3 face = cross(dFdx(v_local), dFdy(v_local));
+  if (dot(face, view) < 0.0) face = -face;
+  vec3 n = normalize(v_normal);
+  if (dot(n, face) < 0.0) n = -n;
+  float facing = dot(n, sun_direction);
+  float sun = sunlight(v_local, facing < 0.0 ? -n : n);
+  vec4 here = sky_at(v_local);
+  float front = max(facing, 0.0), back = max(-facing, 0.0);
+  float from_sky = mix(skylight(here, n), 0.55 * skylight(here, n) + 0.45 * skylight(here, -n) + 0.06, thin);
+  float from_ground = (0.5 - 0.5 * mix(n.y, 0.0, 0.5 * thin)) * min(1.0, 2.2 * here.w);
+  vec3 ground = k_ground_colour * (k_sun_colour * sun_direction.y * 0.55 + k_sky_colour);
+  vec3 c = albedo * (k_sun_colour * sun * front * mix(1.0, 0.85, thin) + k_sky_colour * from_sky + ground * from_ground);
+  // A leaf is a filter: what comes through is yellower, and strongest against the sun.
+  vec3 filtered = albedo * vec3(1.05, 1.12, 0.5);
+  float against = 1.0 + 1.2 * pow(max(dot(-view, sun_direction), 0.0), 4.0);
+  c += thin * filtered * k_sun_colour * sun * back * 0.65 * against;
+  vec3 halfway = normalize(view + sun_direction);
+  if (shininess > 0.0 && facing > 0.0) {
+    c += specular * k_sun_colour * sun * pow(max(dot(n, halfway), 0.0), shininess);
+  }
+  return c;
+}
+
+void main() {
+  vec3 albedo = diffuse * texture(image, v_texcoord).rgb;
+  vec3 c = lit ? tone(shade(albedo) + emission) : clamp(albedo + emission, 0.0, 1.0);
+  colour = vec4(mix(c, vec3(0.86), ghost), 1.0);
+}
+)";
+
+const std::string_view k_shadow_vertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec2 texcoord;
+uniform mat4 clip;
+out vec2 v_texcoord;
+void main() {
+  v_texcoord = vec2(texcoord.x, 1.0 - texcoord.y);
+  gl_Position = clip * vec4(position, 1.0);
+}
+)";
+
+const std::string_view k_shadow_fragment = R"(
+uniform sampler2D image;
+uniform float cutoff, opacity;
+in vec2 v_texcoord;
+void main() {
+  float a = opacity * (cutoff > 0.0 ? texture(image, v_texcoord).a : 1.0);
+  // What is half transparent casts half a shadow: a pattern of texels, smoothed by the filter that reads it.
+  if (cutoff > 0.0 ? a < cutoff : a < 1.0 && a <= random(uvec2(gl_FragCoord.xy))) discard;
+}
+)";
+
+}  // namespace copse::treeplay::shaders

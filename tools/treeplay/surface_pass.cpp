@@ -1,0 +1,148 @@
+#include "tools/treeplay/surface_pass.h"
+
+#include "lib/runtime/mip_chain.h"
+#include "tools/treeplay/shaders.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace copse::treeplay {
+
+Result<SurfacePass> SurfacePass::make() {
+  using namespace shaders;
+  SurfacePass pass;
+  auto coverage = Program::make("coverage", k_common, k_surface_vertex, k_coverage_fragment);
+  if (!coverage) return std::unexpected(coverage.error());
+  auto light = Program::make("surface", k_common, k_surface_vertex, k_surface_fragment);
+  if (!light) return std::unexpected(light.error());
+  auto shadow = Program::make("shadow", k_common, k_shadow_vertex, k_shadow_fragment);
+  if (!shadow) return std::unexpected(shadow.error());
+  pass.coverage_ = std::move(*coverage);
+  pass.light_ = std::move(*light);
+  pass.shadow_ = std::move(*shadow);
+  return pass;
+}
+
+std::size_t SurfacePass::upload_image(const Image& image, float cutoff) {
+  images_.push_back(make_texture());
+  glBindTexture(GL_TEXTURE_2D, images_.back().get());
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  GLint level = 0;
+  for (const MipLevel& mip : mip_chain(image.rgba, image.width, image.height, cutoff)) {
+    if (mip.width > largest || mip.height > largest) continue;  // begins with the largest that fits
+    glTexImage2D(GL_TEXTURE_2D, level++, GL_SRGB8_ALPHA8, mip.width, mip.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 mip.rgba.data());
+  }
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return images_.size() - 1;
+}
+
+// One texel, of the colour of a texture that is missing (white where there is none).
+std::size_t SurfacePass::flat_image(const Float3& linear_colour) {
+  images_.push_back(make_texture());
+  glBindTexture(GL_TEXTURE_2D, images_.back().get());
+  const std::array<float, 4> texel{linear_colour.x, linear_colour.y, linear_colour.z, 1};
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, 1, 1, 0, GL_RGBA, GL_FLOAT, texel.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return images_.size() - 1;
+}
+
+Result<void> SurfacePass::upload(const Scene& scene) {
+  const TreeGeometry& g = scene.geometry;
+  array_ = make_vertex_array();
+  vertices_ = make_buffer();
+  indices_ = make_buffer();
+  glBindVertexArray(array_.get());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(g.vertices.size() * sizeof(DrawVertex)),
+               g.vertices.data(), GL_STATIC_DRAW);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(g.indices.size() * sizeof(std::uint32_t)),
+               g.indices.data(), GL_STATIC_DRAW);
+  const auto attribute = [](GLuint index, GLint size, std::size_t at) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(DrawVertex),
+                          reinterpret_cast<const void*>(at));  // NOLINT: an offset, as GL wants it
+  };
+  attribute(0, 3, offsetof(DrawVertex, position));
+  attribute(1, 3, offsetof(DrawVertex, normal));
+  attribute(2, 2, offsetof(DrawVertex, texcoord));
+
+  // A texture's mip levels depend on the alpha cutoff, so a pair of both is an image.
+  std::map<std::pair<std::uint32_t, float>, std::size_t> uploaded;
+  for (const DrawRange& range : g.ranges) {
+    Range r;
+    r.count = static_cast<GLsizei>(range.index_count);
+    r.first =
+        reinterpret_cast<const void*>(sizeof(std::uint32_t) * std::size_t{range.first_index});  // NOLINT
+    r.material = material_of(scene, range);
+    const bool cut_out = r.material.alpha_cutoff > 0;
+    r.thin = range.part == DrawPart::leaves || (range.part == DrawPart::mesh && cut_out) ? 1.0f : 0.0f;
+    const std::uint32_t t = r.material.texture;
+    const auto [known, is_new] = uploaded.try_emplace({t, r.material.alpha_cutoff}, 0);
+    if (t < scene.images.size() && scene.images[t]) {
+      if (is_new) known->second = upload_image(*scene.images[t], r.material.alpha_cutoff);
+      r.image = known->second;
+    } else {
+      r.image = flat_image(t == k_none ? Float3{1, 1, 1} : r.material.mean_colour);
+    }
+    ranges_.push_back(std::move(r));
+  }
+  return check_gl("uploading the model");
+}
+
+void SurfacePass::draw(const Program& program, bool with_light) const {
+  glBindVertexArray(array_.get());
+  glActiveTexture(GL_TEXTURE0);
+  for (const Range& r : ranges_) {
+    glBindTexture(GL_TEXTURE_2D, images_[r.image].get());
+    if (with_light) {
+      program.set("diffuse", r.material.diffuse);
+      program.set("specular", r.material.specular);
+      program.set("emission", r.material.emission);
+      program.set("shininess", r.material.shininess);
+      program.set("thin", r.thin);
+    } else {
+      program.set("cutoff", r.material.alpha_cutoff);
+      program.set("opacity", r.material.alpha);
+    }
+    glDrawElements(GL_TRIANGLES, r.count, GL_UNSIGNED_INT, r.first);
+  }
+}
+
+void SurfacePass::draw_shadow(const Mat4& clip) const {
+  shadow_.use();
+  shadow_.set("image", 0);
+  shadow_.set("clip", clip);
+  draw(shadow_, false);
+}
+
+void SurfacePass::draw_coverage(const Mat4& clip, const Float3& offset, bool multisampled) const {
+  coverage_.use();
+  coverage_.set("image", 0);
+  coverage_.set("clip", clip);
+  coverage_.set("offset", offset);
+  coverage_.set("multisampled", multisampled ? 1 : 0);
+  draw(coverage_, false);
+}
+
+void SurfacePass::draw_light(const Mat4& clip, const Float3& offset, bool lit, float ghost) const {
+  light_.use();
+  light_.set("image", 0);
+  light_.set("clip", clip);
+  light_.set("offset", offset);
+  light_.set("lit", lit ? 1 : 0);
+  light_.set("ghost", ghost);
+  draw(light_, true);
+}
+
+}  // namespace copse::treeplay

@@ -1,0 +1,43 @@
+// Draws the triangles of a scene: the shadow map once, then for every frame depth and coverage, then light.
+#pragma once
+
+#include "tools/treeplay/gl.h"
+#include "tools/treeplay/scene.h"
+
+#include <vector>
+
+namespace copse::treeplay {
+
+class SurfacePass {
+ public:
+  static Result<SurfacePass> make();
+  Result<void> upload(const Scene& scene);
+
+  // Into the bound depth-only framebuffer.
+  void draw_shadow(const Mat4& clip) const;
+  // Depth first, so that the costly second pass runs once a fragment: `clip` takes camera-relative positions.
+  void draw_coverage(const Mat4& clip, const Float3& offset, bool multisampled) const;
+  // The program's uniforms of the common part must have been set. ghost: 0 as it is, 1 faded away.
+  void draw_light(const Mat4& clip, const Float3& offset, bool lit, float ghost) const;
+  const Program& light_program() const { return light_; }
+
+ private:
+  struct Range {
+    GLsizei count = 0;
+    const void* first = nullptr;  // offset into the index buffer
+    Material material;
+    std::size_t image = 0;  // into images_
+    float thin = 0;
+  };
+  void draw(const Program& program, bool with_light) const;
+  std::size_t upload_image(const Image& image, float cutoff);
+  std::size_t flat_image(const Float3& linear_colour);
+
+  Program coverage_, light_, shadow_;
+  VertexArray array_;
+  Buffer vertices_, indices_;
+  std::vector<Texture2> images_;
+  std::vector<Range> ranges_;
+};
+
+}  // namespace copse::treeplay
