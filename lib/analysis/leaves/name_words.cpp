@@ -21,7 +21,8 @@ constexpr std::string_view k_trunk_words =
     "\u0434\u0440\u0435\u0432\u0435\u0441\u0438\u043d\u0430 \u043a\u043e\u0440\u043d\u0438 "
     "runko kaarna juuri govde kabuk";
 constexpr std::string_view k_weak_trunk_words =
-    "branch branches root stem stems twig twigs limb limbs bough boughs stalk stalks stick sticks shoot shoots "
+    "branch branches root stem stems twig twigs limb limbs bough boughs stalk stalks stick sticks shoot "
+    "shoots "
     "ast aste aeste zweig zweige stiel stiele "
     "branche rameau rameaux tige tiges rama ramas tallo tallos ramo ramos rami gambo "
     "galho galhos caule tak takken twijg gren grenar kvist kvistar "
