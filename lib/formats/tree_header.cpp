@@ -11,7 +11,6 @@ enum HeadFlags : std::uint32_t { flag_monotone = 1 };
 
 constexpr std::size_t k_flags_offset = 92;
 constexpr std::size_t k_leaf_order_offset = 96;
-constexpr std::size_t k_reserved_offset = 196;
 
 // One walk over the fields in file order serves both directions, so that they cannot drift apart.
 template <class Field>
@@ -88,7 +87,7 @@ HeadFault decode_head(std::span<const std::uint8_t> bytes, Head& head) {
   if (leaf_order > static_cast<std::uint32_t>(LeafOrder::random)) {
     return {k_leaf_order_offset, fmt::format("unknown leaf order {}", leaf_order)};
   }
-  if (!all_zero(bytes.subspan(k_reserved_offset))) return {k_reserved_offset, "reserved bytes are not zero"};
+  if (!all_zero(bytes.subspan(at))) return {at, "reserved bytes are not zero"};
   head.header.monotone = flags & flag_monotone;
   head.header.leaf_order = static_cast<LeafOrder>(leaf_order);
   return {};
