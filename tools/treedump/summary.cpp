@@ -1,0 +1,210 @@
+#include "tools/treedump/text.h"
+#include "tools/treedump/views.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace copse {
+namespace {
+
+constexpr std::size_t k_label = 13;  // columns of the left margin of labels
+
+void add(std::string& out, const char* label, const std::string& text) {
+  if (!text.empty()) out += fmt::format("  {:<{}}{}\n", label, k_label, text);
+}
+
+// Lists are joined by ", " and empty entries left out.
+std::string listed(std::initializer_list<std::string> entries) {
+  std::string out;
+  for (const std::string& entry : entries) {
+    if (!entry.empty()) out += fmt::format("{}{}", out.empty() ? "" : ", ", entry);
+  }
+  return out;
+}
+
+template <class T>
+std::string point_text(const Vec3<T>& p) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z);
+}
+
+std::string bounds_text(const FloatBox& box) {
+  if (box.empty()) return "nothing";
+  const Float3 size = box.extent();
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} m, from {} to {}", size.x, size.y, size.z, point_text(box.min),
+                     point_text(box.max));
+}
+
+void add_trunk(std::string& out, const Dump& dump) {
+  const TreeCounts& c = dump.file->counts();
+  const TreeHeader& h = dump.file->header();
+  if (c.trunk_triangles == 0) return add(out, "trunk", "none");
+  add(out, "trunk",
+      listed({count_text(c.trunk_triangles, "triangle"), count_text(c.trunk_vertices, "vertex"),
+              fmt::format("mean triangle {:.3g} m2", h.mean_trunk_area)}));
+  const Array<float>& diameters = dump.tree.trunk.diameters;
+  const Array<double>& lengths = dump.tree.trunk.accumulated_lengths;
+  add(out, "segments",
+      listed({count_text(c.segments, "segment"),
+              h.segment_factor != 0 ? fmt::format("{} each", count_text(h.segment_factor, "triangle"))
+                                    : std::string(),
+              lengths.empty() ? std::string()
+                              : fmt::format("{} long in all", metres_text(lengths[lengths.size() - 1])),
+              diameters.empty() ? std::string()
+                                : fmt::format("{} to {} thick", metres_text(diameters[0]),
+                                              metres_text(diameters[diameters.size() - 1])),
+              h.unexplained != 0 ? count_text(h.unexplained, "triangle") + " that no segment explains"
+                                 : std::string()}));
+  add(out, "trunk box", bounds_text(h.trunk_bounds));
+}
+
+void add_hierarchy(std::string& out, const Dump& dump) {
+  const TreeCounts& c = dump.file->counts();
+  const TreeHeader& h = dump.file->header();
+  if (h.kind != TreeKind::sensitive) return;
+  const auto terminals = std::count_if(dump.tree.hierarchy.radii.begin(), dump.tree.hierarchy.radii.end(),
+                                       [](const Radius& r) { return (r.flags & Radius::terminal) != 0; });
+  add(out, "hierarchy",
+      listed(
+          {count_text(c.radii, "radius"), count_text(h.roots, "root"),
+           dump.tree.hierarchy.radii.empty() ? std::string()
+                                             : count_text(static_cast<std::uint64_t>(terminals), "terminal"),
+           h.ring_size != 0 ? fmt::format("{} each", count_text(h.ring_size, "vertex"))
+                            : "vertices that vary in number",
+           h.monotone ? "diameters never grow towards the tips" : "some diameters grow towards the tips"}));
+}
+
+void add_leaves(std::string& out, const Dump& dump) {
+  static constexpr std::array<const char*, 3> k_orders{"outwards from the group's centre",
+                                                       "by distance from the terminal", "at random"};
+  const TreeCounts& c = dump.file->counts();
+  const TreeHeader& h = dump.file->header();
+  if (c.leaf_triangles == 0) return add(out, "leaves", "none");
+  add(out, "leaves",
+      listed({count_text(c.leaves, "leaf"), count_text(c.leaf_triangles, "triangle"),
+              h.leaf_factor != 0 ? fmt::format("{} each", h.leaf_factor) : std::string(),
+              count_text(c.leaf_vertices, "vertex"), fmt::format("mean area {:.3g} m2", h.mean_leaf_area)}));
+  add(out, "leaf groups",
+      listed({count_text(c.groups, "group"),
+              c.group_nodes == 0 ? std::string() : count_text(c.group_nodes, "sphere") + " over them",
+              fmt::format("leaves ordered {}", k_orders[static_cast<std::size_t>(h.leaf_order)])}));
+}
+
+std::string texture_text(const Tree& tree, std::uint32_t index) {
+  if (index >= tree.textures.size()) return fmt::format("texture {} (left out)", index);
+  const Texture& texture = tree.textures[index];
+  if (!texture.uri.empty()) return texture.uri;
+  return fmt::format("embedded {}, {}", texture.mime.empty() ? "image" : texture.mime,
+                     bytes_text(texture.bytes.size()));
+}
+
+void add_materials(std::string& out, const Dump& dump) {
+  const char* label = "materials";
+  for (const Material& m : dump.tree.materials) {
+    add(out, label,
+        listed({m.name.empty() ? "(without a name)" : m.name,
+                m.texture == k_none ? std::string() : texture_text(dump.tree, m.texture),
+                m.alpha_cutoff > 0 ? fmt::format("alpha test at {:.3g} lets {:.3g} % through", m.alpha_cutoff,
+                                                 100 * m.alpha_coverage)
+                                   : std::string(),
+                m.double_sided ? "double-sided" : ""}));
+    label = "";
+  }
+}
+
+// "treeprep 0.1.0 from oak.glb", from the members that a provenance usually has.
+std::string provenance_text(const std::string& provenance) {
+  const auto json = nlohmann::json::parse(provenance, nullptr, false);
+  if (!json.is_object()) return provenance.substr(0, 200);
+  const auto text = [&](const char* key) {
+    return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
+  };
+  std::string out = listed({text("tool"), text("version")});
+  std::replace(out.begin(), out.end(), ',', ' ');
+  out.erase(std::unique(out.begin(), out.end(), [](char a, char b) { return a == ' ' && b == ' '; }),
+            out.end());
+  if (json.contains("source") && json["source"].is_object() && json["source"].contains("path") &&
+      json["source"]["path"].is_string()) {
+    out += fmt::format(" from {}", json["source"]["path"].get<std::string>());
+  } else if (!text("source").empty()) {
+    out += fmt::format(" from {}", text("source"));
+  }
+  return out;
+}
+
+// Texts from a file may hold anything; a terminal shall not obey them.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if ((static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7f) c = '?';
+  }
+  return text;
+}
+
+void add_sections(std::string& out, const Dump& dump) {
+  std::size_t widest = 4;
+  for (const SectionState& s : dump.sections) widest = std::max(widest, describe_section(s.info.name).size());
+  out += fmt::format("\n  {:<7}  {:<{}}  {:<6}  {:>11}  {:>9}  {:>9}  {:>7}\n", "section", "what", widest,
+                     "stored", "elements", "size", "decoded", "share");
+  for (const SectionState& s : dump.sections) {
+    const SectionInfo& i = s.info;
+    const std::uint64_t elements = i.stride > 1 ? i.decoded_size / i.stride : 0;
+    out += fmt::format("  {:<7}  {:<{}}  {:<6}  {:>11}  {:>9}  {:>9}  {:>7}{}\n", i.name,
+                       describe_section(i.name), widest, encoding_name(i.encoding),
+                       elements == 0 ? "" : count_text(elements), bytes_text(i.stored_size),
+                       i.encoding == Encoding::raw ? "" : bytes_text(i.decoded_size),
+                       share_text(i.stored_size, dump.container.size()), s.damage.empty() ? "" : "  DAMAGED");
+  }
+}
+
+void add_omissions(std::string& out, const Dump& dump) {
+  if (!dump.file || dump.file->omissions().empty()) return;
+  std::uint64_t saved = 0;
+  for (const Omitted& omitted : dump.file->omissions()) saved += omitted.bytes;
+  out += fmt::format("\n  Left out on purpose, which saved {} ({} of the whole):\n", bytes_text(saved),
+                     share_text(saved, dump.container.size() + saved));
+  for (const Omitted& omitted : dump.file->omissions()) {
+    out += fmt::format("  {:<7}  {:<32}  {:>9}\n", omitted.name, describe_section(omitted.name),
+                       bytes_text(omitted.bytes));
+  }
+}
+
+}  // namespace
+
+std::string summary_text(const Dump& dump) {
+  std::string out =
+      fmt::format("{}: {}, {} in {}\n\n", dump.path.string(), kind_name(dump.container.kind()),
+                  bytes_text(dump.container.size()), count_text(dump.sections.size(), "section"));
+  if (dump.file) {
+    const TreeHeader& h = dump.file->header();
+    add(out, "size", bounds_text(h.bounds));
+    if (h.origin != Double3{})
+      add(out, "origin", fmt::format("({}, {}, {})", h.origin.x, h.origin.y, h.origin.z));
+    add_trunk(out, dump);
+    add_hierarchy(out, dump);
+    add_leaves(out, dump);
+    add_materials(out, dump);
+    add(out, "made by", provenance_text(dump.tree.provenance));
+  } else {
+    out += "  header and table do not fit together; the sections are:\n";
+  }
+  add_sections(out, dump);
+  add_omissions(out, dump);
+  return printable(out);
+}
+
+Table sections_table(const Dump& dump) {
+  Table table{.name = "Sections",
+              .columns = {"section", "what", "stored", "bytes", "decoded bytes", "share"},
+              .rows = {}};
+  for (const SectionState& s : dump.sections) {
+    table.rows.push_back({s.info.name, std::string(describe_section(s.info.name)),
+                          std::string(encoding_name(s.info.encoding)), std::to_string(s.info.stored_size),
+                          std::to_string(s.info.decoded_size),
+                          share_text(s.info.stored_size, dump.container.size())});
+  }
+  return table;
+}
+
+}  // namespace copse

@@ -1,0 +1,22 @@
+#include "tools/treedump/views.h"
+
+#include <algorithm>
+
+namespace copse {
+
+Result<std::vector<std::string>> verify_file(const std::filesystem::path& path) {
+  auto container = Container::open(path);
+  if (!container && container.error().fault != Fault::refused) return std::unexpected(container.error());
+  if (!container) return std::vector<std::string>{container.error().what};
+  const auto file = TreeFile::open(path);
+  if (file) return file->verify();
+  // Header or table do not fit together; the checksums can be checked all the same.
+  std::vector<std::string> failures{file.error().what};
+  for (const SectionInfo& section : container->sections()) {
+    const auto sound = container->verify(section);
+    if (!sound && sound.error().what != failures.front()) failures.push_back(sound.error().what);
+  }
+  return failures;
+}
+
+}  // namespace copse
