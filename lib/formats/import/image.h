@@ -20,6 +20,12 @@ struct Image {
   bool has_alpha = false;  // false: alpha is 255 everywhere because the file has none
 };
 
+// A picture of more pixels is refused: 8192 x 8192, 256 MB of RGBA.
+inline constexpr std::uint64_t k_image_pixels = std::uint64_t{1} << 26;
+
+// PNG, JPEG, EXR, TIFF, HDR, WebP, BMP, TGA and GIF (its first picture), recognised by content. Palettes,
+// grey and 16 bits become RGBA of 8; floating-point images (EXR, HDR) are taken as linear and premultiplied,
+// and become sRGB.
 Result<Image> read_image(const std::filesystem::path& path);
 Result<Image> read_image(std::span<const std::uint8_t> bytes, const std::string& name);
 

@@ -33,6 +33,8 @@ struct Corner {
   std::uint32_t normal = k_none;
 };
 
+// Of one kind, in a mesh: indices are 32 bits wide, and the top values mean "none".
+inline constexpr std::uint64_t k_most_elements = 0xfffffff0u;
 // The names of all parts together may take as many bytes as this, or 4 times the file if that is more: a file
 // cannot make each of a million parts repeat one long name.
 inline constexpr std::uint64_t k_part_names_floor = std::uint64_t{16} << 20;

@@ -14,9 +14,6 @@
 namespace copse {
 namespace {
 
-// Indices are 32 bits wide and the top one means "none".
-constexpr std::uint64_t k_most = 0xfffffff0u;
-
 enum class Statement { position, texcoord, normal, face, other };
 
 // Tells the four frequent statements apart by their first letters and steps over the keyword.
@@ -109,7 +106,7 @@ class ObjReader {
     texcoords_.all = mesh_.texcoords.size();
     normals_.all = mesh_.normals.size();
     const std::uint64_t most = std::max({positions_.all, texcoords_.all, normals_.all, triangles});
-    if (most > k_most)
+    if (most > k_most_elements)
       return builder_.refuse(fmt::format("has {} elements of one kind", most), "split it into several files");
     builder_.reserve(triangles);
     return true;

@@ -95,7 +95,7 @@ class OffReader {
     vertices_ = static_cast<std::uint64_t>(vertices);
     faces_ = static_cast<std::uint64_t>(faces);
     // "0 0 0" and a line end; "3 0 1 2" and a line end, though "1 0" is read too.
-    if (vertices_ > size_ / 6 || faces_ > size_ / 2 || vertices_ >= k_none)
+    if (vertices_ > size_ / 6 || faces_ > size_ / 2 || vertices_ > k_most_elements)
       return refuse(
           fmt::format("{} vertices and {} faces do not fit into {} bytes", vertices_, faces_, size_));
     return true;

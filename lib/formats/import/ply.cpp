@@ -402,7 +402,7 @@ bool read_ply(std::string_view text, MeshBuilder& builder) {
   PlyHeader header;
   if (!read_ply_header(text, header, builder)) return false;
   for (const PlyElement& element : header.elements) {
-    if (element.count >= k_none)
+    if (element.count > k_most_elements)
       return builder.refuse(fmt::format("claims {} of element {}", element.count, in_quotes(element.name)),
                             k_remedy);
   }

@@ -148,7 +148,7 @@ bool PrimitiveReader::place_attribute(const Source& source, const std::string& n
 
 bool PrimitiveReader::within_limit(std::uint64_t total) {
   const std::uint64_t limit =
-      std::min<std::uint64_t>(std::max(limit_, document_.stored_bytes()), 0xfffffff0u);
+      std::min<std::uint64_t>(std::max(limit_, document_.stored_bytes()), k_most_elements);
   return total <= limit ||
          builder_.refuse(fmt::format("its scene has more than {} triangles or vertices", limit),
                          "instance fewer copies of its meshes");
