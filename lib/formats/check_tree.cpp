@@ -108,10 +108,14 @@ std::string check_counts(const Head& head) {
                                     : elements > 0 && std::uint64_t{constant} * owners == elements;
     return fits ? std::string() : fmt::format("{} {} in {} runs of {}", elements, what, owners, constant);
   };
+  const bool sensitive = h.kind == TreeKind::sensitive;
+  if (!sensitive && c.radii > 0) return fmt::format("{} radii, but a .tree carries no hierarchy", c.radii);
+  if (sensitive && c.line_vertices > 0) {
+    return fmt::format("{} line vertices, but an .stree's lines join radii", c.line_vertices);
+  }
   std::string wrong = runs("trunk triangles", h.segment_factor, c.segments, c.trunk_triangles);
   if (wrong.empty()) wrong = runs("leaf triangles", h.leaf_factor, c.leaves, c.leaf_triangles);
-  if (wrong.empty() && h.kind == TreeKind::sensitive)
-    wrong = runs("vertex vectors", h.ring_size, c.radii, c.trunk_vertices);
+  if (wrong.empty() && sensitive) wrong = runs("vertex vectors", h.ring_size, c.radii, c.trunk_vertices);
   return wrong;
 }
 

@@ -30,6 +30,7 @@ struct TreeFile::Impl {
 
   Result<void> read_head();
   Result<void> read_omitted();
+  Result<void> check_version(const SectionInfo& section, std::size_t stride) const;
   Result<void> check_section(std::string_view name, std::uint64_t count, std::size_t stride,
                              Presence presence) const;
   Result<void> check_table() const;
@@ -58,10 +59,7 @@ Result<void> TreeFile::Impl::read_head() {
   head.header.kind = static_cast<TreeKind>(file.kind());
   const SectionInfo* section = file.find("HEAD");
   if (!section) return missing("HEAD");
-  if (section->version != k_tree_section_version) {
-    return file.refuse_section(*section, 0,
-                               fmt::format("version {} is unknown to this program", section->version));
-  }
+  if (auto known = check_version(*section, 1); !known) return known;
   const auto bytes = file.read(*section);
   if (!bytes) return std::unexpected(bytes.error());
   const HeadFault fault = decode_head(*bytes, head);
@@ -72,10 +70,10 @@ Result<void> TreeFile::Impl::read_head() {
 Result<void> TreeFile::Impl::read_omitted() {
   const SectionInfo* section = file.find("OMIT");
   if (!section) return {};
+  if (auto known = check_version(*section, k_omitted_record); !known) return known;
   const auto bytes = file.read(*section);
   if (!bytes) return std::unexpected(bytes.error());
-  if (section->stride != k_omitted_record || bytes->empty())
-    return file.refuse_section(*section, 0, "no whole records");
+  if (bytes->empty()) return file.refuse_section(*section, 0, "it is empty");
   const auto& known = omissible_sections();
   auto next = known.begin();
   for (std::size_t at = 0; at < bytes->size(); at += k_omitted_record) {
@@ -98,6 +96,15 @@ Result<void> TreeFile::Impl::read_omitted() {
   return {};
 }
 
+Result<void> TreeFile::Impl::check_version(const SectionInfo& section, std::size_t stride) const {
+  if (section.version != k_tree_section_version) {
+    return file.refuse_section(section, 0,
+                               fmt::format("version {} is unknown to this program", section.version));
+  }
+  if (section.stride == stride) return {};
+  return file.refuse_section(section, 0, fmt::format("stride {}, expected {}", section.stride, stride));
+}
+
 Result<void> TreeFile::Impl::check_section(std::string_view name, std::uint64_t count, std::size_t stride,
                                            Presence presence) const {
   const SectionInfo* section = file.find(name);
@@ -106,13 +113,10 @@ Result<void> TreeFile::Impl::check_section(std::string_view name, std::uint64_t 
     if (count == 0 || may_miss) return {};
     return missing(name);
   }
-  const auto bad = [&](const std::string& what) { return file.refuse_section(*section, 0, what); };
-  if (section->version != k_tree_section_version) {
-    return bad(fmt::format("version {} is unknown to this program", section->version));
-  }
-  if (section->stride != stride) return bad(fmt::format("stride {}, expected {}", section->stride, stride));
+  if (auto known = check_version(*section, stride); !known) return known;
   if (section->decoded_size == 0 || section->decoded_size / stride != count) {
-    return bad(fmt::format("{} elements, the header says {}", section->decoded_size / stride, count));
+    return file.refuse_section(
+        *section, 0, fmt::format("{} elements, the header says {}", section->decoded_size / stride, count));
   }
   return {};
 }
