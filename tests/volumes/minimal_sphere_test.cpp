@@ -1,6 +1,7 @@
 #include "lib/analysis/volumes/minimal_sphere.h"
 
 #include "lib/formats/random.h"
+#include "lib/formats/sphere_contains.h"
 
 #include <chrono>
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Min_sphere_of_points_d_traits_3.h>
 #include <CGAL/Min_sphere_of_spheres_d.h>
+#include <CGAL/Min_sphere_of_spheres_d_traits_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <gtest/gtest.h>
 
@@ -73,8 +75,8 @@ Points repeat(std::size_t n, Make&& make) {
 }
 
 TEST(MinimalSphere, OfNothingIsAPointAtTheOrigin) {
-  EXPECT_EQ(minimal_sphere({}).radius, 0);
-  EXPECT_EQ(stored_minimal_sphere({}).radius, 0);
+  EXPECT_EQ(minimal_sphere(Points{}).radius, 0);
+  EXPECT_EQ(stored_minimal_sphere(Points{}).radius, 0);
 }
 
 TEST(MinimalSphere, OfOnePointOrItsCopiesHasNoRadius) {
@@ -82,6 +84,11 @@ TEST(MinimalSphere, OfOnePointOrItsCopiesHasNoRadius) {
   EXPECT_EQ(minimal_sphere(points).radius, 0);
   EXPECT_EQ(minimal_sphere(points).centre, (Double3{3, -4, 5}));
   EXPECT_EQ(stored_minimal_sphere(points).radius, 0);
+}
+
+TEST(MinimalSphere, RoundingToFloatIsNotOptimizedAway) {
+  const Double3 p{0.1, 0.2, 0.3}, rounded = rounded_to_float(p);
+  EXPECT_EQ(rounded, (Double3{0x1.99999ap-4, 0x1.99999ap-3, 0x1.333334p-2}));
 }
 
 TEST(MinimalSphere, OfKnownBodiesIsTheKnownOne) {
@@ -162,6 +169,36 @@ TEST(MinimalSphere, ASphereThatIsTooSmallByOneStepDoesNotEnclose) {
   small.radius = std::nextafter(small.radius, 0.0f);
   EXPECT_TRUE(encloses(tight, {-1, 0.1, 0}));
   EXPECT_FALSE(encloses(small, {-1, 0.1, 0}) && encloses(small, {1, 0, 0}) && encloses(small, {0, 0.9, 0.3}));
+}
+
+TEST(MinimalSphere, OfBallsAgreesWithExactArithmeticToo) {
+  using Q = CGAL::Exact_rational;
+  using Traits = CGAL::Min_sphere_of_spheres_d_traits_3<CGAL::Simple_cartesian<Q>, Q>;
+  Random random(5);
+  for (int round = 0; round < 60; ++round) {
+    std::vector<Sphere> balls;
+    std::vector<std::pair<CGAL::Simple_cartesian<Q>::Point_3, Q>> exact_balls;
+    const double spread = round % 3 == 0 ? 0.3 : 1;  // in every third round some balls swallow others
+    for (std::uint64_t i = 0, n = 1 + random.below(12); i < n; ++i) {
+      balls.push_back(
+          {in_box(random, {spread, spread, round % 4 == 1 ? 0 : spread}), random.uniform(0, 0.5)});
+      const Double3& c = balls.back().centre;
+      exact_balls.emplace_back(CGAL::Simple_cartesian<Q>::Point_3(c.x, c.y, c.z), Q(balls.back().radius));
+    }
+    CGAL::Min_sphere_of_spheres_d<Traits> theirs(exact_balls.begin(), exact_balls.end());
+    const double exact =
+        CGAL::to_double(theirs.radius().first) +
+        CGAL::to_double(theirs.radius().second) * std::sqrt(CGAL::to_double(theirs.discriminant()));
+    const Sphere ours = minimal_sphere(balls);
+    EXPECT_NEAR(ours.radius, exact, 1e-12 * exact) << round;
+    std::vector<StoredSphere> stored;
+    for (const Sphere& b : balls) stored.push_back({to_float(b.centre), static_cast<float>(b.radius)});
+    const StoredSphere around = stored_minimal_sphere(stored);
+    for (const StoredSphere& s : stored) {
+      EXPECT_TRUE(sphere_contains(around.centre, around.radius, s.centre, s.radius)) << round;
+    }
+    EXPECT_LE(around.radius, exact * (1 + 1e-6));
+  }
 }
 
 TEST(MinimalSphere, TakesAboutAsManyPassesOnAMillionPointsAsOnAThousand) {

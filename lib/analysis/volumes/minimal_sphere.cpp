@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <limits>
+#include <vector>
 
 namespace copse {
 namespace {
@@ -9,9 +10,9 @@ namespace {
 // A squared distance in double is off by at most 6 roundings of 2^-53: three differences (twice each, for
 // they are squared), a product and two sums.
 constexpr double k_squared_error = 8 * 0x1p-53;
-// The farthest point counts as inside up to this much of the squared radius.
-constexpr double k_inside = 1 + 4e-15;
-// Steps that neither enlarge the ball nor bring the farthest point nearer, before rounding is taken to rule.
+// The farthest member counts as inside up to this much of the radius.
+constexpr double k_inside = 1 + 2e-15;
+// Steps that neither enlarge the ball nor bring the farthest member nearer, before rounding is taken to rule.
 constexpr int k_idle_steps = 32;
 constexpr double k_smallest_square = 1e-280;  // below it squares have lost digits to underflow
 
@@ -19,28 +20,46 @@ double squared(const Double3& a) {
   return dot(a, a);
 }
 
-// The centre of the smallest sphere through the origin and `n` <= 3 points; false when they are dependent.
-bool circumcentre(const std::array<Double3, 3>& a, int n, Double3& centre) {
-  if (n == 0) {
-    centre = {};
-    return true;
-  }
-  if (n == 1) {
-    centre = a[0] * 0.5;
-    return true;
-  }
+// The point w nearest to the origin with w . a[i] = right[i] for i < n <= 3; false when the a[i] are
+// dependent.
+bool solve(const std::array<Double3, 3>& a, const std::array<double, 3>& right, int n, Double3& w) {
   const Double3 normal = cross(a[0], a[1]);
-  if (n == 2) {
-    const double denominator = 2 * squared(normal);
-    if (!(denominator > 0)) return false;
-    centre = cross(a[1] * squared(a[0]) - a[0] * squared(a[1]), normal) / denominator;
+  if (n == 1) {
+    w = a[0] * (right[0] / squared(a[0]));
+  } else if (n == 2) {
+    w = cross(a[1] * right[0] - a[0] * right[1], normal) / squared(normal);
   } else {
-    const double denominator = 2 * dot(normal, a[2]);
-    if (denominator == 0) return false;
-    centre =
-        (cross(a[1], a[2]) * squared(a[0]) + cross(a[2], a[0]) * squared(a[1]) + normal * squared(a[2])) /
-        denominator;
+    w = (cross(a[1], a[2]) * right[0] + cross(a[2], a[0]) * right[1] + normal * right[2]) / dot(normal, a[2]);
   }
+  return is_finite(w);
+}
+
+// The centre, relative to that of `p`, of a ball that p and n <= 3 others touch from inside.
+bool touching_centre(const Sphere& p, const std::array<Sphere, 3>& others, int n, Double3& centre) {
+  centre = {};
+  if (n == 0) return true;
+  // |c| = s and |c - a_i| = s + d_i, where s + p.radius is the radius sought: so a_i . c = e_i - s d_i.
+  std::array<Double3, 3> a;
+  std::array<double, 3> d{}, e{};
+  bool points = true;
+  for (int i = 0; i < n; ++i) {
+    a[i] = others[i].centre - p.centre;
+    d[i] = p.radius - others[i].radius;
+    e[i] = (squared(a[i]) - d[i] * d[i]) / 2;
+    points &= d[i] == 0;
+  }
+  Double3 u, v;
+  if (!solve(a, e, n, u)) return false;
+  if (points) {
+    centre = u;
+    return true;
+  }
+  if (!solve(a, d, n, v)) return false;
+  // c = u - s v, |c| = s
+  const double q = 1 - squared(v), half = dot(u, v);
+  const double root = std::sqrt(half * half + q * squared(u));
+  const double s = squared(u) / (half + root);
+  centre = u - v * s;
   return is_finite(centre);
 }
 
@@ -51,9 +70,52 @@ struct Frame {  // brings points near the origin and to a size of about 1; the s
   Double3 out(const Double3& q) const { return q / scale + origin; }
 };
 
-Frame frame_of(std::span<const Double3> points) {
+struct Farthest {
+  std::size_t member = 0;
+  double distance = -1;
+};
+
+// --- points: squares are compared, and nothing is copied -------------------------------------------------
+
+Sphere as_ball(const Double3& p, const Frame& frame) {
+  return {frame.in(p), 0};
+}
+Farthest farthest_from(const Double3& centre, std::span<const Double3> points, const Frame& frame) {
+  Farthest found;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double d = squared(frame.in(points[i]) - centre);
+    if (d > found.distance) found = {i, d};
+  }
+  found.distance = std::sqrt(std::max(0.0, found.distance));
+  return found;
+}
+void grow(DoubleBox& box, const Double3& p) {
+  box.grow(p);
+}
+
+// --- balls -----------------------------------------------------------------------------------------------
+
+Sphere as_ball(const Sphere& b, const Frame& frame) {
+  return {frame.in(b.centre), b.radius * frame.scale};
+}
+Farthest farthest_from(const Double3& centre, std::span<const Sphere> balls, const Frame& frame) {
+  Farthest found;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const Sphere b = as_ball(balls[i], frame);
+    const double d = std::sqrt(squared(b.centre - centre)) + b.radius;
+    if (d > found.distance) found = {i, d};
+  }
+  return found;
+}
+void grow(DoubleBox& box, const Sphere& b) {
+  const Double3 r{b.radius, b.radius, b.radius};
+  box.grow(b.centre - r), box.grow(b.centre + r);
+}
+
+template <class Member>
+Frame frame_of(std::span<const Member> members) {
   DoubleBox box;
-  for (const Double3& p : points) box.grow(p);
+  for (const Member& m : members) grow(box, m);
   // Halves first: the box of points near the largest double must not overflow.
   const Double3 half = box.max * 0.5 - box.min * 0.5;
   const double reach = std::max({half.x, half.y, half.z});
@@ -62,93 +124,94 @@ Frame frame_of(std::span<const Double3> points) {
   return frame;
 }
 
-struct Farthest {
-  std::size_t point = 0;
-  double squared = -1;
-};
-
-Farthest farthest_from(const Double3& centre, std::span<const Double3> points, const Frame& frame) {
-  Farthest found;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double d = squared(frame.in(points[i]) - centre);
-    if (d > found.squared) found = {i, d};
+template <class Member>
+Sphere minimal_sphere_of(std::span<const Member> members) {
+  if (members.empty()) return {};
+  const Frame frame = frame_of(members);
+  SupportBall ball;
+  ball.include(as_ball(members[farthest_from({}, members, frame).member], frame));
+  PivotLoop loop;
+  for (;;) {
+    const Farthest farthest = farthest_from(ball.centre(), members, frame);
+    if (!loop.should_include(ball, farthest.distance)) break;
+    ball.include(as_ball(members[farthest.member], frame));
   }
-  return found;
+  Sphere sphere{frame.out(loop.best().centre), 0};
+  // From the centre as it was rounded, not as it was found.
+  const Frame about{sphere.centre, frame.scale};
+  sphere.radius = farthest_from({}, members, about).distance / frame.scale;
+  return sphere;
 }
 
 }  // namespace
 
-void SupportBall::include(const Double3& p) {
-  std::array<Double3, 4> best_support;
-  Double3 best_centre = p;
+void SupportBall::include(const Sphere& b) {
+  std::array<Sphere, 4> best_support;
+  Sphere best{b.centre, std::numeric_limits<double>::infinity()};
   int best_size = 0;
-  double best = std::numeric_limits<double>::infinity();
   for (unsigned subset = 0; subset < (1u << size_); ++subset) {
-    const int chosen = std::popcount(subset);
-    if (chosen > 3) continue;
-    std::array<Double3, 3> from_p;
-    std::array<Double3, 4> support;
+    if (std::popcount(subset) > 3) continue;
+    std::array<Sphere, 3> others;
     int n = 0;
     for (int i = 0; i < size_; ++i) {
-      if (!(subset >> i & 1)) continue;
-      support[n] = support_[i];
-      from_p[n++] = support_[i] - p;
+      if (subset >> i & 1) others[n++] = support_[i];
     }
     Double3 offset;
-    if (!circumcentre(from_p, n, offset)) continue;
-    const Double3 centre = p + offset;
-    double farthest = squared(centre - p);
-    for (int i = 0; i < size_; ++i) farthest = std::max(farthest, squared(support_[i] - centre));
-    if (!(farthest < best)) continue;
-    best = farthest;
-    best_centre = centre;
-    support[n] = p;
-    best_support = support;
+    if (!touching_centre(b, others, n, offset)) continue;
+    const Double3 centre = b.centre + offset;
+    double farthest = distance(centre, b.centre) + b.radius;
+    for (int i = 0; i < size_; ++i) {
+      farthest = std::max(farthest, distance(support_[i].centre, centre) + support_[i].radius);
+    }
+    if (!(farthest < best.radius)) continue;
+    best = {centre, farthest};
+    std::copy_n(others.begin(), n, best_support.begin());
+    best_support[n] = b;
     best_size = n + 1;
   }
   if (best_size == 0) return;  // every candidate overflowed: the ball stays as it is
-  centre_ = best_centre;
-  squared_radius_ = best;
+  ball_ = best;
   support_ = best_support;
   size_ = best_size;
 }
 
-bool PivotLoop::should_include(const SupportBall& ball, double farthest_squared) {
-  const bool nearer = best_squared_ < 0 || farthest_squared < best_squared_;
-  const bool grown = ball.squared_radius() > radius_squared_ * (1 + 1e-13);
-  if (nearer) {
-    best_centre_ = ball.centre();
-    best_squared_ = farthest_squared;
-  }
-  radius_squared_ = std::max(radius_squared_, ball.squared_radius());
-  if (farthest_squared <= ball.squared_radius() * k_inside) return false;
+bool PivotLoop::should_include(const SupportBall& ball, double farthest) {
+  const bool nearer = best_.radius < 0 || farthest < best_.radius;
+  const bool grown = ball.radius() > radius_ * (1 + 1e-13);
+  if (nearer) best_ = {ball.centre(), farthest};
+  radius_ = std::max(radius_, ball.radius());
+  if (farthest <= ball.radius() * k_inside) return false;
   idle_ = nearer || grown ? 0 : idle_ + 1;
   return idle_ < k_idle_steps;
 }
 
 Sphere minimal_sphere(std::span<const Double3> points) {
-  if (points.empty()) return {};
-  const Frame frame = frame_of(points);
-  SupportBall ball;
-  ball.include(frame.in(points[farthest_from({}, points, frame).point]));
-  PivotLoop loop;
-  for (;;) {
-    const Farthest farthest = farthest_from(ball.centre(), points, frame);
-    if (!loop.should_include(ball, farthest.squared)) break;
-    ball.include(frame.in(points[farthest.point]));
-  }
-  Sphere sphere{frame.out(loop.best_centre()), 0};
-  // From the centre as it was rounded, not as it was found.
-  const Frame about{sphere.centre, frame.scale};
-  sphere.radius = std::sqrt(std::max(0.0, farthest_from({}, points, about).squared)) / frame.scale;
-  return sphere;
+  return minimal_sphere_of(points);
+}
+
+Sphere minimal_sphere(std::span<const Sphere> balls) {
+  return minimal_sphere_of(balls);
+}
+
+Double3 rounded_to_float(const Double3& p) {
+  volatile float x = static_cast<float>(p.x), y = static_cast<float>(p.y), z = static_cast<float>(p.z);
+  return {x, y, z};
+}
+
+void EnclosingRadius::add(const StoredSphere& s) {
+  EnclosingRadius centre(to_float(centre_));  // its coordinates are float32 numbers
+  centre.add(to_double(s.centre));
+  // Both terms are float32 numbers and their sum, rounded up once, is no less than the exact one.
+  const double sum = double{centre.radius()} + s.radius;
+  ball_ = std::max(ball_, std::nextafter(sum, std::numeric_limits<double>::infinity()));
 }
 
 float EnclosingRadius::radius() const {
-  if (reach_ == 0) return 0;
+  float radius = ball_ > 0 ? round_up(ball_) : 0;
+  if (reach_ == 0) return radius;
   const double wanted = squared_ < k_smallest_square ? 4 * reach_ * reach_ : squared_ * (1 + k_squared_error);
   // 2 > sqrt(3): where squares underflow the largest difference alone bounds the distance.
-  float radius = round_up(squared_ < k_smallest_square ? 2 * reach_ : std::sqrt(wanted));
+  radius = std::max(radius, round_up(squared_ < k_smallest_square ? 2 * reach_ : std::sqrt(wanted)));
   while (static_cast<double>(radius) * radius < wanted) {
     radius = std::nextafter(radius, std::numeric_limits<float>::infinity());
   }
@@ -159,6 +222,15 @@ StoredSphere stored_minimal_sphere(std::span<const Double3> points) {
   const Float3 centre = to_float(minimal_sphere(points).centre);
   EnclosingRadius radius(centre);
   for (const Double3& p : points) radius.add(p);
+  return {centre, radius.radius()};
+}
+
+StoredSphere stored_minimal_sphere(std::span<const StoredSphere> spheres) {
+  std::vector<Sphere> balls;
+  for (const StoredSphere& s : spheres) balls.push_back({to_double(s.centre), s.radius});
+  const Float3 centre = to_float(minimal_sphere(balls).centre);
+  EnclosingRadius radius(centre);
+  for (const StoredSphere& s : spheres) radius.add(s);
   return {centre, radius.radius()};
 }
 
