@@ -23,6 +23,7 @@ enum class Finding : std::uint8_t {
   brown_blob,    // trunk
   pillar,        // trunk: a blob that carries wider ones
   stump,         // trunk: the largest blob on the ground, under cards
+  only_piece,    // trunk: a blob that is all there is
 };
 
 bool is_trunk(Finding f, NameClass named) {
@@ -37,6 +38,7 @@ bool is_trunk(Finding f, NameClass named) {
     case Finding::brown_blob:
     case Finding::pillar:
     case Finding::stump:
+    case Finding::only_piece:
       return true;
     default:
       return false;
@@ -101,8 +103,10 @@ class Rules {
     if (fact.decided) return Finding::named;
     const PartVerdict& v = verdict(p);
     if (fact.shape == ShapeKind::stem) return Finding::stem;
-    if (fact.shape == ShapeKind::blob)
-      return v.kind == NameClass::trunk ? Finding::named_blob : Finding::blob;
+    if (fact.shape == ShapeKind::blob) {
+      if (v.kind == NameClass::trunk) return Finding::named_blob;
+      return v.kind == NameClass::none && found_.size() == 1 ? Finding::only_piece : Finding::blob;
+    }
     const bool bark = v.kind == NameClass::trunk && v.binding == Binding::whole;
     return bark && scan_.alike(p) < k_many ? Finding::few_sheets : Finding::sheet;
   }
@@ -305,6 +309,8 @@ std::string describe(Finding f, const PieceFact& fact, std::size_t n) {
       return counted("a lump", n) + " that carries a wider one";
     case Finding::stump:
       return counted("a lump", n) + " on the ground under the leaves";
+    case Finding::only_piece:
+      return counted("a lump", n) + ", all in one piece";
   }
   return "";
 }
