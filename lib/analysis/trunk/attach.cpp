@@ -1,5 +1,6 @@
 #include "lib/analysis/trunk/attach.h"
 
+#include "lib/analysis/trunk/taper.h"
 #include "lib/analysis/trunk/tolerances.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@ struct Candidate {
   double too_thin = 0;  // ln of how much thinner the parent is than a parent may be; 0 if it is not
   double buried = 0;    // 1 at the centre of the parent's own buried base, 0 a radius away from it
   double gap = 0;
+  double doubt = 0;  // cost of what is unusual about it
   double cost = 0;
 };
 
@@ -34,7 +36,11 @@ class Attacher {
  public:
   Attacher(const Limbs& limbs, const LimbSegments& segments, const Ground& ground,
            std::span<const std::uint32_t> bases)
-      : limbs_(limbs), segments_(segments), ground_(ground), bases_(bases) {}
+      : limbs_(limbs),
+        segments_(segments),
+        ground_(ground),
+        natural_bases_(bases),
+        bases_(bases.begin(), bases.end()) {}
 
   std::vector<Attachment> run() {
     measure_limbs();
@@ -44,8 +50,9 @@ class Attacher {
     choose();
     std::vector<Attachment> attachments(bases_.size());
     for (std::uint32_t l = 0; l < bases_.size(); ++l) {
+      attachments[l].base = natural_bases_[l];
       if (chosen_[l] >= first_[l + 1]) continue;
-      attachments[l] = {candidates_[chosen_[l]].ring, candidates_[chosen_[l]].gap};
+      attachments[l] = {bases_[l], candidates_[chosen_[l]].ring, candidates_[chosen_[l]].gap};
     }
     return attachments;
   }
@@ -53,6 +60,8 @@ class Attacher {
  private:
   void measure_limbs();
   void find_candidates();
+  void find_candidates(std::uint32_t limb);
+  bool find_turned(std::uint32_t limb);
   void mark_buried();
   Habit habit() const;
   void rate(const Habit& habit);
@@ -67,19 +76,24 @@ class Attacher {
   const Limbs& limbs_;
   const LimbSegments& segments_;
   const Ground& ground_;
-  std::span<const std::uint32_t> bases_;
+  std::span<const std::uint32_t> natural_bases_;
+  std::vector<std::uint32_t> bases_;                         // by which limbs are attached, if they are
   double lowest_ = std::numeric_limits<double>::infinity();  // y of the lowest base
   std::vector<double> reach_;                                // from a limb's base to its farthest ring
   std::vector<std::uint32_t> farthest_;                      // that ring
-  std::vector<double> radius_;                               // of a limb at its base
+  std::vector<double> radius_, mean_radius_;                 // of a limb at its base, and of all its rings
+  std::vector<std::uint32_t> other_end_;                     // of a limb with two; k_none
   std::vector<std::size_t> first_;                           // of each limb's candidates; limbs + 1
-  std::vector<Candidate> candidates_;                        // by ascending cost, limb by limb
-  std::vector<std::size_t> chosen_;  // candidate; first_[limb + 1] where none is left: a root
+  std::vector<Nearness> found_;
+  std::vector<Candidate> candidates_;  // by ascending cost, limb by limb
+  std::vector<std::size_t> chosen_;    // candidate; first_[limb + 1] where none is left: a root
 };
 
 void Attacher::measure_limbs() {
   reach_.assign(bases_.size(), 0);
   radius_.assign(bases_.size(), 0);
+  mean_radius_.assign(bases_.size(), 0);
+  std::vector<std::uint32_t> rings(bases_.size(), 0);
   farthest_.assign(bases_.begin(), bases_.end());
   for (const std::uint32_t base : bases_) {
     if (base == k_none) continue;
@@ -91,7 +105,24 @@ void Attacher::measure_limbs() {
     const double d = distance(limbs_.centre[r], limbs_.centre[bases_[limb]]);
     if (d > reach_[limb]) reach_[limb] = d, farthest_[limb] = r;
     // A limb that begins in a point is as thick as what the point opens into.
-    if (limbs_.parent_of(r) == bases_[limb] && radius_[limb] == 0) radius_[limb] = limbs_.diameter[r] / 4;
+    const bool is_next = limbs_.parent_of(r) == bases_[limb] || limbs_.parent_of(bases_[limb]) == r;
+    if (is_next && radius_[limb] == 0) radius_[limb] = limbs_.diameter[r] / 4;
+    if (limbs_.merged_into[r] != k_none) continue;
+    mean_radius_[limb] += limbs_.diameter[r] / 2;
+    ++rings[limb];
+  }
+  for (std::size_t limb = 0; limb < bases_.size(); ++limb) {
+    if (rings[limb] > 0) mean_radius_[limb] /= rings[limb];
+  }
+  std::vector<std::uint32_t> ends(bases_.size(), 0);
+  other_end_.assign(bases_.size(), k_none);
+  for (const std::uint32_t e : end_rings(limbs_)) {
+    const std::uint32_t limb = limbs_.limb[e];
+    ++ends[limb];
+    if (e != bases_[limb]) other_end_[limb] = e;
+  }
+  for (std::size_t limb = 0; limb < bases_.size(); ++limb) {
+    if (ends[limb] != 2) other_end_[limb] = k_none;
   }
 }
 
@@ -120,27 +151,47 @@ bool Attacher::stands_on_ground(std::uint32_t limb, double least_offset) const {
 }
 
 void Attacher::find_candidates() {
-  std::vector<Nearness> found;
   first_.assign(1, 0);
   for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
-    const std::uint32_t base = bases_[limb];
-    const std::size_t begin = candidates_.size();
-    if (base != k_none) {
-      const double radius = radius_[limb];
-      const Double3& at = limbs_.centre[base];
-      segments_.tree.near(at, k_contact_reach * radius, radius / 2, limb, k_candidates, found);
-      for (const Nearness& near : found) candidates_.push_back(candidate(near, radius));
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t c = begin; c < candidates_.size(); ++c) least = std::min(least, candidates_[c].offset);
-      Nearness near;
-      if (stands_on_ground(limb, least)) {
-        candidates_.resize(begin);
-      } else if (found.empty() && segments_.tree.nearest(at, k_float_gap * reach_[limb], limb, near)) {
-        candidates_.push_back(candidate(near, radius));
-      }
-    }
+    if (bases_[limb] != k_none) find_candidates(limb);
     first_.push_back(candidates_.size());
   }
+}
+
+void Attacher::find_candidates(std::uint32_t limb) {
+  const std::size_t begin = candidates_.size();
+  const double radius = radius_[limb];
+  const Double3& at = limbs_.centre[bases_[limb]];
+  segments_.tree.near(at, k_contact_reach * radius, radius / 2, limb, k_candidates, found_);
+  for (const Nearness& near : found_) candidates_.push_back(candidate(near, radius));
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t c = begin; c < candidates_.size(); ++c) least = std::min(least, candidates_[c].offset);
+  if (stands_on_ground(limb, least)) candidates_.resize(begin);
+  if (!found_.empty() || stands_on_ground(limb, least) || find_turned(limb)) return;
+  Nearness near;
+  if (segments_.tree.nearest(at, k_float_gap * reach_[limb], limb, near)) {
+    candidates_.push_back(candidate(near, radius));
+    candidates_.back().doubt = k_cost_float;
+  }
+}
+
+// A tube that nothing holds by the end that it tapers from may hang on something by the other: a twig with a
+// flared tip. What holds it must not be thinner than it is, lest a tree hang by its top from another one.
+bool Attacher::find_turned(std::uint32_t limb) {
+  const std::uint32_t end = other_end_[limb];
+  if (end == k_none) return false;
+  const double radius = limbs_.diameter[end] / 2;
+  const std::size_t begin = candidates_.size();
+  segments_.tree.near(limbs_.centre[end], k_contact_reach * radius, radius / 2, limb, k_candidates, found_);
+  for (const Nearness& near : found_) {
+    if (mean_radius_[limb] > k_thicker_child * near.radius) continue;
+    candidates_.push_back(candidate(near, radius));
+    candidates_.back().doubt = k_cost_float;
+  }
+  if (candidates_.size() == begin) return false;
+  bases_[limb] = end;
+  radius_[limb] = radius;
+  return true;
 }
 
 void Attacher::mark_buried() {
@@ -159,7 +210,7 @@ Habit Attacher::habit() const {
   for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
     if (first_[limb + 1] - first_[limb] != 1) continue;
     const Candidate& c = candidates_[first_[limb]];
-    if (c.gap <= k_contact_reach * radius_[limb] && c.buried == 0) offsets.push_back(c.offset);
+    if (c.doubt == 0 && c.buried == 0) offsets.push_back(c.offset);
   }
   if (offsets.size() < k_habit_limbs) return {0, k_habit_unknown};
   Habit habit;
@@ -175,8 +226,7 @@ void Attacher::rate(const Habit& habit) {
     const auto end = candidates_.begin() + static_cast<std::ptrdiff_t>(first_[limb + 1]);
     for (auto c = begin; c != end; ++c) {
       c->cost = std::abs(c->offset - habit.offset) / habit.spread + k_cost_too_thin * c->too_thin +
-                k_cost_buried * c->buried;
-      if (c->gap > k_contact_reach * radius_[limb]) c->cost += k_cost_float;
+                k_cost_buried * c->buried + c->doubt;
     }
     std::stable_sort(begin, end, [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
   }

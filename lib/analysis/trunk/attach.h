@@ -12,6 +12,7 @@
 namespace copse {
 
 struct Attachment {
+  std::uint32_t base = k_none;  // the ring that the limb begins with; k_none where there is no such limb
   std::uint32_t ring =
       k_none;      // of the parent limb, alive: the end of the segment that is nearer; k_none: a root
   double gap = 0;  // metres between the base's centre and the parent's surface; < 0 inside it

@@ -1,6 +1,7 @@
 #include "lib/analysis/trunk/join.h"
 
 #include "lib/analysis/trunk/components.h"
+#include "lib/analysis/trunk/taper.h"
 #include "lib/analysis/trunk/tolerances.h"
 
 #include <algorithm>
@@ -42,20 +43,13 @@ bool coincide(const Limbs& limbs, std::uint32_t a, std::uint32_t b) {
          std::abs(limbs.diameter[a] - limbs.diameter[b]) <= k_join_tolerance * diameter;
 }
 
-// The ends at which their limbs clearly begin: all other ends are thinner.
+// The ends at which their limbs clearly begin: no other end may be the base.
 std::vector<std::uint8_t> clear_starts(const Limbs& limbs, std::span<const std::uint32_t> ends) {
-  std::vector<double> thickest(limbs.size, 0);
+  std::vector<std::uint8_t> is_start = possible_bases(limbs, ends);
+  std::vector<std::uint32_t> possible(limbs.size, 0);
+  for (const std::uint32_t e : ends) possible[limbs.limb[e]] += is_start[e];
   for (const std::uint32_t e : ends) {
-    thickest[limbs.limb[e]] = std::max(thickest[limbs.limb[e]], limbs.diameter[e]);
-  }
-  std::vector<std::uint32_t> thick_ends(limbs.size, 0);
-  std::vector<std::uint8_t> is_start(limbs.rings(), 0);
-  for (const std::uint32_t e : ends) {
-    is_start[e] = limbs.diameter[e] * k_like_thickness >= thickest[limbs.limb[e]];
-    thick_ends[limbs.limb[e]] += is_start[e];
-  }
-  for (const std::uint32_t e : ends) {
-    if (thick_ends[limbs.limb[e]] > 1) is_start[e] = 0;
+    if (possible[limbs.limb[e]] > 1) is_start[e] = 0;
   }
   return is_start;
 }
@@ -89,20 +83,6 @@ class Joints {
 }  // namespace
 
 LimbSegments::LimbSegments(const Limbs& limbs) : rings(segment_rings(limbs)), tree(make_tree(limbs, rings)) {}
-
-std::vector<std::uint32_t> end_rings(const Limbs& limbs) {
-  std::vector<std::uint32_t> neighbours(limbs.rings(), 0);
-  for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
-    if (limbs.merged_into[r] != k_none || limbs.parent[r] == k_none) continue;
-    ++neighbours[r];
-    ++neighbours[limbs.parent_of(r)];
-  }
-  std::vector<std::uint32_t> ends;
-  for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
-    if (limbs.merged_into[r] == k_none && neighbours[r] <= 1) ends.push_back(r);
-  }
-  return ends;
-}
 
 void join(Limbs& limbs, LimbSegments& segments) {
   Joints joints(limbs);

@@ -23,9 +23,6 @@ struct LimbSegments {
   SegmentTree tree;
 };
 
-// The rings of each limb that have one neighbour in it or none: its ends. Ascending.
-std::vector<std::uint32_t> end_rings(const Limbs& limbs);
-
 // Merges every end ring with a ring of another limb that has the same centre and diameter (tolerances.h), and
 // with the limbs the limb numbers in `limbs` and in the segments. Limbs that are already one are not joined a
 // second time: two tubes laid in the same place stay two from their common ring on. O(n log n).

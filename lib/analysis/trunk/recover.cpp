@@ -182,10 +182,10 @@ Hierarchy recover_hierarchy(const TrunkMesh& mesh, const RecoverOptions& options
   if (limbs.size > 1) join(limbs, segments);
   const Ground ground(limbs, mesh.positions);
   const std::vector<std::uint32_t> bases = choose_bases(limbs, segments, ground);
-  for (const std::uint32_t base : bases) {
-    if (base != k_none) reroot(limbs, base);
-  }
   const std::vector<Attachment> attachments = attach(limbs, segments, ground, bases);
+  for (const Attachment& attachment : attachments) {
+    if (attachment.base != k_none) reroot(limbs, attachment.base);
+  }
   return Assembly(limbs, attachments).run();
 }
 

@@ -76,7 +76,7 @@ std::vector<std::uint32_t> RingReader::lid_ring_of(std::span<const RingMeasure> 
   const RingTree& rings = front_.rings();
   const auto closes = [&](std::uint32_t end, std::uint32_t ring) {
     const double radius = measures[ring].diameter / 2;
-    const double reach = rings.ring(end).size() == 1 ? k_lid_height : k_lid_inset_height;
+    const double reach = rings.ring(end).size() == 1 ? k_lid_height : k_join_tolerance;
     return rings.ring(ring).size() >= 3 && measures[end].diameter < measures[ring].diameter &&
            distance(measures[end].centre, measures[ring].centre) <= reach * radius;
   };

@@ -1,5 +1,6 @@
 #include "lib/analysis/trunk/root.h"
 
+#include "lib/analysis/trunk/taper.h"
 #include "lib/analysis/trunk/tolerances.h"
 
 #include <algorithm>
@@ -55,24 +56,18 @@ Ground::Ground(const Limbs& limbs, std::span<const Double3> positions) : below_(
 std::vector<std::uint32_t> choose_bases(const Limbs& limbs, const LimbSegments& segments,
                                         const Ground& ground) {
   const std::vector<std::uint32_t> ends = end_rings(limbs);
-  std::vector<double> thickest(limbs.size, 0);
-  for (const std::uint32_t e : ends) {
-    thickest[limbs.limb[e]] = std::max(thickest[limbs.limb[e]], limbs.diameter[e]);
-  }
-  const auto is_thick = [&](std::uint32_t e) {
-    return limbs.diameter[e] * k_like_thickness >= thickest[limbs.limb[e]];
-  };
-  std::vector<std::uint32_t> thick_ends(limbs.size, 0);
-  for (const std::uint32_t e : ends) thick_ends[limbs.limb[e]] += is_thick(e);
+  const std::vector<std::uint8_t> possible = possible_bases(limbs, ends);
+  std::vector<std::uint32_t> choices(limbs.size, 0);
+  for (const std::uint32_t e : ends) choices[limbs.limb[e]] += possible[e];
   Contact contact(limbs, segments, ends);
   using Rank = std::tuple<bool, double, double>;  // lower is better
   std::vector<Rank> best(limbs.size);
   std::vector<std::uint32_t> base(limbs.size, k_none);
   for (const std::uint32_t e : ends) {
     const std::uint32_t limb = limbs.limb[e];
-    if (!is_thick(e)) continue;
+    if (!possible[e]) continue;
     Rank rank;
-    if (thick_ends[limb] > 1) rank = {!ground.is_below(e), contact(e), limbs.centre[e].y};
+    if (choices[limb] > 1) rank = {!ground.is_below(e), contact(e), limbs.centre[e].y};
     if (base[limb] == k_none || rank < best[limb]) best[limb] = rank, base[limb] = e;
   }
   return base;

@@ -22,9 +22,9 @@ class Ground {
   std::vector<std::uint8_t> below_;  // one a ring; all 0 where the rule means nothing
 };
 
-// The ring that each limb begins with; k_none for limb numbers that joining has emptied. A limb begins at its
-// thickest end. Between ends of like thickness: below the ground, then where it lies in or against another
-// limb, then the lower one, then the one that the file has first.
+// The ring that each limb begins with; k_none for limb numbers that joining has emptied. A limb begins at the
+// end that it tapers from (taper.h). Where that leaves a choice: below the ground, then where it lies in or
+// against another limb, then the lower one, then the one that the file has first.
 std::vector<std::uint32_t> choose_bases(const Limbs& limbs, const LimbSegments& segments,
                                         const Ground& ground);
 

@@ -37,8 +37,6 @@ inline constexpr double k_flat_slenderness = 1.0 / 16;
 // cap (a dome is as high as the radius times tan 22.5 degrees or so) and not the point that a twig runs out
 // into, which is as long as a segment.
 inline constexpr double k_lid_height = 0.5;
-// Radii between the centres of two rings of which the smaller is inset in the cap of the larger.
-inline constexpr double k_lid_inset_height = 1.0 / 32;
 
 // --- joining and attaching limbs
 // -----------------------------------------------------------------------------------

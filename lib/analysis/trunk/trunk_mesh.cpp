@@ -75,8 +75,7 @@ bool is_degenerate(const Triangle& t) {
 TrunkMesh make_trunk_mesh(const Mesh& mesh, std::span<const std::uint8_t> is_trunk, double tolerance) {
   UsedVertices used = used_by_trunk(mesh, is_trunk);
   const std::vector<std::uint32_t> representative =
-      tolerance < 0 ? weld(used.positions, weld_tolerances(used.positions, used.triangles))
-                    : weld(used.positions, tolerance);
+      tolerance < 0 ? weld(used.positions, used.triangles) : weld(used.positions, tolerance);
   // Degenerate triangles still connect the piece that they lie in.
   const Components pieces = connected_components(used.triangles);
   TrunkMesh trunk;

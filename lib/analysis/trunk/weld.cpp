@@ -132,9 +132,11 @@ class Grids {
 
 }  // namespace
 
-std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const double> tolerances) {
-  std::vector<std::uint32_t> representative(positions.size());
-  weld_equal(positions, representative);
+namespace {
+
+// Joins what is near, given that what is equal has been joined.
+void weld_near(std::span<const Double3> positions, std::span<const double> tolerances,
+               std::vector<std::uint32_t>& representative) {
   Grids grids(positions, tolerances);
   for (std::uint32_t i = 0; i < positions.size(); ++i) {
     if (representative[i] != i) {
@@ -148,6 +150,49 @@ std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<co
       }
     }
   }
+}
+
+// The tolerances of representatives of equal positions; 0 elsewhere.
+std::vector<double> tolerances_of(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                                  std::span<const std::uint32_t> representative) {
+  DoubleBox box;
+  for (const Triangle& t : triangles) {
+    for (const std::uint32_t v : t) box.grow(positions[v]);
+  }
+  // Coordinates so large that differences overflow leave nothing to compare tolerances with.
+  const double extent = length(box.extent());
+  const double diagonal = std::isfinite(extent) ? extent : 0;
+  const auto noise = [&](const Double3& p) {
+    const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return std::min(size * k_weld_float_noise, diagonal * k_weld_noise_of_diagonal);
+  };
+  std::vector<double> shortest(positions.size(), -1);  // -1: no triangle uses it
+  for (const Triangle& t : triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t a = representative[t[i]], b = representative[t[(i + 1) % 3]];
+      if (shortest[a] < 0) shortest[a] = diagonal;
+      if (shortest[b] < 0) shortest[b] = diagonal;
+      const double l = distance(positions[a], positions[b]);
+      if (l >= shortest[a] && l >= shortest[b]) continue;
+      if (l <= std::max(noise(positions[a]), noise(positions[b]))) continue;
+      shortest[a] = std::min(shortest[a], l);
+      shortest[b] = std::min(shortest[b], l);
+    }
+  }
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    shortest[v] = shortest[v] < 0 ? 0
+                                  : std::max(noise(positions[v]), std::min(shortest[v] * k_weld_of_edge,
+                                                                           diagonal * k_weld_of_diagonal));
+  }
+  return shortest;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const double> tolerances) {
+  std::vector<std::uint32_t> representative(positions.size());
+  weld_equal(positions, representative);
+  weld_near(positions, tolerances, representative);
   return representative;
 }
 
@@ -155,35 +200,18 @@ std::vector<std::uint32_t> weld(std::span<const Double3> positions, double toler
   return weld(positions, std::vector<double>(positions.size(), tolerance));
 }
 
+std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const Triangle> triangles) {
+  std::vector<std::uint32_t> representative(positions.size());
+  weld_equal(positions, representative);
+  weld_near(positions, tolerances_of(positions, triangles, representative), representative);
+  return representative;
+}
+
 std::vector<double> weld_tolerances(std::span<const Double3> positions, std::span<const Triangle> triangles) {
-  DoubleBox box;
-  for (const Triangle& t : triangles) {
-    for (const std::uint32_t v : t) box.grow(positions[v]);
-  }
-  // Coordinates so large that differences overflow leave nothing to compare tolerances with.
-  const double diagonal = std::isfinite(length(box.extent())) ? length(box.extent()) : 0;
-  std::vector<double> noise(positions.size(), 0), shortest(positions.size(), diagonal);
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    const Double3& p = positions[v];
-    const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    noise[v] = std::min(size * k_weld_float_noise, diagonal * k_weld_noise_of_diagonal);
-  }
-  std::vector<double> tolerances(positions.size(), 0);
-  for (const Triangle& t : triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-      tolerances[a] = 1;  // used
-      const double l = distance(positions[a], positions[b]);
-      if (l > std::max(noise[a], noise[b])) {
-        shortest[a] = std::min(shortest[a], l);
-        shortest[b] = std::min(shortest[b], l);
-      }
-    }
-  }
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    if (tolerances[v] == 0) continue;
-    tolerances[v] = std::max(noise[v], std::min(shortest[v] * k_weld_of_edge, diagonal * k_weld_of_diagonal));
-  }
+  std::vector<std::uint32_t> representative(positions.size());
+  weld_equal(positions, representative);
+  std::vector<double> tolerances = tolerances_of(positions, triangles, representative);
+  for (std::size_t v = 0; v < positions.size(); ++v) tolerances[v] = tolerances[representative[v]];
   return tolerances;
 }
 

@@ -21,8 +21,11 @@ namespace copse {
 std::vector<std::uint32_t> weld(std::span<const Double3> positions, double tolerance);
 std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const double> tolerances);
 
-// One tolerance a position, from the mesh itself (tolerances.h): far below the edges that meet there, far
-// above rounding. 0 for positions that no triangle uses.
+// The same with tolerances from the mesh itself.
+std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const Triangle> triangles);
+
+// These tolerances, one a position (tolerances.h): far below the edges that meet there (at it or at an equal
+// position), above rounding. 0 for positions that no triangle uses.
 std::vector<double> weld_tolerances(std::span<const Double3> positions, std::span<const Triangle> triangles);
 
 }  // namespace copse
