@@ -134,6 +134,8 @@ Result<void> OutputGroup::add(const fs::path& path, std::string_view bytes) {
     return {};
   }
   if (entry.target.filename().empty()) return io_error(path, EISDIR);
+  // Renaming would replace a file that its owner has protected from writing.
+  if (::access(entry.target.c_str(), W_OK) != 0 && errno != ENOENT) return io_error(path, errno);
   const int file = open_beside(entry.target, entry.temporary);
   if (file < 0) return io_error(path, errno);
   pending_.push_back(entry);  // from here on the temporary file is removed whatever happens

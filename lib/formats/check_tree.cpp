@@ -116,6 +116,10 @@ std::string check_counts(const Head& head) {
   std::string wrong = runs("trunk triangles", h.segment_factor, c.segments, c.trunk_triangles);
   if (wrong.empty()) wrong = runs("leaf triangles", h.leaf_factor, c.leaves, c.leaf_triangles);
   if (wrong.empty() && sensitive) wrong = runs("vertex vectors", h.ring_size, c.radii, c.trunk_vertices);
+  if (wrong.empty() &&
+      ((head.trunk_materials && c.trunk_triangles == 0) || (head.leaf_materials && c.leaves == 0))) {
+    wrong = "materials of each, but there are none";
+  }
   return wrong;
 }
 
@@ -132,7 +136,7 @@ void check_elements(const Tree& tree, const Head& head, Findings& findings) {
 std::vector<std::string> check_tree(const Tree& tree) {
   if (auto wrong = check_sizes(tree); !wrong.empty()) return wrong;
   Findings findings;
-  check_elements(tree, {tree.header, count(tree), tree.trunk.material, tree.leaves.material}, findings);
+  check_elements(tree, head_of(tree), findings);
   return findings.lines();
 }
 

@@ -58,7 +58,7 @@ Result<std::vector<std::uint8_t>> encode_tree(const Tree& whole, const WriteOpti
   auto reduced = leave_out(whole, options.omit);
   if (!reduced) return std::unexpected(reduced.error());
   const Tree& tree = reduced->tree;
-  const Head head{tree.header, count(tree), tree.trunk.material, tree.leaves.material};
+  const Head head = head_of(tree);
 
   Sections sections(static_cast<FileKind>(tree.header.kind), options.encoding);
   sections.put_raw("HEAD", 1, encode_head(head));

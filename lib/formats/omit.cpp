@@ -151,7 +151,7 @@ void leave_out_leaves(Tree& tree, const Names& gone) {
 // Optional arrays that the tree came without, although it has what they belong to.
 std::vector<Omitted> already_gone(const Tree& tree) {
   std::vector<Omitted> gone;
-  const Head head{.header = tree.header, .counts = count(tree)};
+  const Head head = head_of(tree);
   for_each_array(tree, head,
                  [&](std::string_view name, const auto& array, std::uint64_t size, Presence presence) {
                    using Element = std::remove_cvref_t<decltype(array[0])>;

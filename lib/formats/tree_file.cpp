@@ -19,6 +19,20 @@ bool holds(const Names& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+bool is_tree_section(std::string_view name) {
+  constexpr std::string_view k_records[] = {"HEAD", "OMIT", "PROV", "MATL", "MNAM", "TEXR", "TNAM", "TDAT"};
+  bool found = std::find(std::begin(k_records), std::end(k_records), name) != std::end(k_records);
+  for (const TreeKind kind : {TreeKind::still, TreeKind::sensitive}) {
+    Head head;
+    head.header.kind = kind;
+    const Tree tree;
+    for_each_array(tree, head, [&](std::string_view array, const auto&, std::uint64_t, Presence) {
+      found |= array == name;
+    });
+  }
+  return found;
+}
+
 }  // namespace
 
 struct TreeFile::Impl {
@@ -109,7 +123,7 @@ Result<void> TreeFile::Impl::check_section(std::string_view name, std::uint64_t 
                                            Presence presence) const {
   const SectionInfo* section = file.find(name);
   if (!section) {
-    const bool may_miss = presence == Presence::free || (presence == Presence::optional && is_omitted(name));
+    const bool may_miss = presence == Presence::optional && is_omitted(name);
     if (count == 0 || may_miss) return {};
     return missing(name);
   }
@@ -132,7 +146,7 @@ Result<void> TreeFile::Impl::check_table() const {
   // Texts have no count of their own: what their records say is checked when they are read.
   const auto texts = [&](std::string_view name) {
     const SectionInfo* section = file.find(name);
-    if (section) check(name, section->decoded_size, 1, Presence::free);
+    if (section) check(name, section->decoded_size, 1, Presence::required);
   };
   texts("PROV");
   check("MATL", head.counts.materials, k_material_record, Presence::required);
@@ -274,6 +288,11 @@ Result<Tree> TreeFile::load(const std::vector<std::string>& only) const {
 }
 
 Result<Tree> TreeFile::load_named(const std::vector<std::string>* only) const {
+  for (const std::string& name : only ? *only : Names()) {
+    if (is_tree_section(name)) continue;
+    return fail(Fault::usage, impl_->file.name(), fmt::format("'{}' is no section of a tree", name),
+                "see docs/formats.md for their names");
+  }
   auto tree = impl_->load(only, impl_->trust == Trust::file ? Verify::no : Verify::yes);
   if (!tree || impl_->trust != Trust::nothing) return tree;
   Findings findings;

@@ -53,8 +53,8 @@ class TreeFile {
   bool has(std::string_view section) const;
   std::uint64_t size() const;  // bytes of the file
 
-  // Everything that is present (or only the named sections); raw sections are used in place, the rest
-  // decoded.
+  // Everything that is present (or only the named sections: the arrays of the others are empty); raw sections
+  // are used in place, the rest decoded. Naming a known section that the file does not have is no error.
   Result<Tree> load() const;
   Result<Tree> load(const std::vector<std::string>& only) const;
   // The decoded bytes of any section, known to this version or not. An error when there is none.

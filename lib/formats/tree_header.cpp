@@ -7,7 +7,12 @@
 namespace copse {
 namespace {
 
-enum HeadFlags : std::uint32_t { flag_monotone = 1 };
+enum HeadFlags : std::uint32_t {
+  flag_monotone = 1,
+  flag_trunk_materials = 2,
+  flag_leaf_materials = 4,
+  known_flags = 7
+};
 
 constexpr std::size_t k_flags_offset = 92;
 constexpr std::size_t k_leaf_order_offset = 96;
@@ -33,8 +38,6 @@ void walk(Field&& field, Head& h, std::uint32_t& flags, std::uint32_t& leaf_orde
   field(c.materials), field(c.textures);
 }
 
-}  // namespace
-
 TreeCounts count(const Tree& tree) {
   const auto n = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
   const bool sensitive = tree.header.kind == TreeKind::sensitive;
@@ -56,10 +59,24 @@ TreeCounts count(const Tree& tree) {
           .textures = n(tree.textures)};
 }
 
+}  // namespace
+
+Head head_of(const Tree& tree) {
+  return {.header = tree.header,
+          .counts = count(tree),
+          .trunk_material = tree.trunk.material,
+          .leaf_material = tree.leaves.material,
+          .trunk_materials = !tree.trunk.materials.empty(),
+          .leaf_materials = !tree.leaves.materials.empty()};
+}
+
 std::vector<std::uint8_t> encode_head(const Head& head) {
   std::vector<std::uint8_t> bytes(k_head_size);
   Head copy = head;
-  std::uint32_t flags = head.header.monotone ? std::uint32_t{flag_monotone} : 0;
+  std::uint32_t flags = 0;
+  if (head.header.monotone) flags |= flag_monotone;
+  if (head.trunk_materials) flags |= flag_trunk_materials;
+  if (head.leaf_materials) flags |= flag_leaf_materials;
   auto leaf_order = static_cast<std::uint32_t>(head.header.leaf_order);
   std::size_t at = 0;
   walk(
@@ -82,13 +99,14 @@ HeadFault decode_head(std::span<const std::uint8_t> bytes, Head& head) {
         at += sizeof value;
       },
       head, flags, leaf_order);
-  if (flags & ~std::uint32_t{flag_monotone})
-    return {k_flags_offset, fmt::format("unknown flags {:#x}", flags)};
+  if (flags & ~std::uint32_t{known_flags}) return {k_flags_offset, fmt::format("unknown flags {:#x}", flags)};
   if (leaf_order > static_cast<std::uint32_t>(LeafOrder::random)) {
     return {k_leaf_order_offset, fmt::format("unknown leaf order {}", leaf_order)};
   }
   if (!all_zero(bytes.subspan(at))) return {at, "reserved bytes are not zero"};
   head.header.monotone = flags & flag_monotone;
+  head.trunk_materials = flags & flag_trunk_materials;
+  head.leaf_materials = flags & flag_leaf_materials;
   head.header.leaf_order = static_cast<LeafOrder>(leaf_order);
   return {};
 }

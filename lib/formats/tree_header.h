@@ -33,9 +33,6 @@ struct TreeCounts {
   friend bool operator==(const TreeCounts&, const TreeCounts&) = default;
 };
 
-// The counts of a tree in memory. Precondition: check_sizes(tree) found nothing.
-TreeCounts count(const Tree& tree);
-
 inline constexpr std::size_t k_head_size = 256;
 
 struct Head {
@@ -43,7 +40,12 @@ struct Head {
   TreeCounts counts;
   std::uint32_t trunk_material = k_none;
   std::uint32_t leaf_material = k_none;
+  bool trunk_materials = false;  // each trunk triangle has its own material (TMAT)
+  bool leaf_materials = false;   // each leaf has its own material (LMAT)
 };
+
+// The head of a tree in memory. Precondition: check_sizes(tree) found nothing.
+Head head_of(const Tree& tree);
 
 std::vector<std::uint8_t> encode_head(const Head& head);
 

@@ -15,7 +15,6 @@ inline constexpr std::uint32_t k_tree_section_version = 1;
 enum class Presence : std::uint8_t {
   required,  // whenever its count is not 0
   optional,  // may be left out although its count is not 0; the file then lists it as omitted
-  free,      // there or not: without it a constant in HEAD stands for all
 };
 
 // How many offsets a table of `owners` runs has: none when every run has `constant` elements.
@@ -44,7 +43,7 @@ void for_each_array(TreeRef& tree, const Head& head, Visit&& visit) {
   visit("TLIN", tree.trunk.lines, std::uint64_t{c.segments}, optional);
   visit("TDIA", tree.trunk.diameters, std::uint64_t{c.segments}, optional);
   visit("TACC", tree.trunk.accumulated_lengths, std::uint64_t{c.segments}, optional);
-  visit("TMAT", tree.trunk.materials, std::uint64_t{c.trunk_triangles}, Presence::free);
+  visit("TMAT", tree.trunk.materials, std::uint64_t{head.trunk_materials ? c.trunk_triangles : 0}, required);
   if (!sensitive) {
     visit("TVTX", tree.trunk.vertices, std::uint64_t{c.trunk_vertices}, required);
     visit("TLVX", tree.trunk.line_vertices, std::uint64_t{c.line_vertices}, required);
@@ -55,7 +54,7 @@ void for_each_array(TreeRef& tree, const Head& head, Visit&& visit) {
   visit("LFIR", tree.leaves.first_triangle, offset_count(c.leaves, h.leaf_factor, c.leaf_triangles),
         required);
   visit("LCEN", tree.leaves.centres, std::uint64_t{c.leaves}, optional);
-  visit("LMAT", tree.leaves.materials, std::uint64_t{c.leaves}, Presence::free);
+  visit("LMAT", tree.leaves.materials, std::uint64_t{head.leaf_materials ? c.leaves : 0}, required);
   visit("LVTX", tree.leaves.vertices, std::uint64_t{c.leaf_vertices}, required);
   visit("LNRM", tree.leaves.normals, std::uint64_t{c.leaf_normals}, required);
   visit("LTEX", tree.leaves.texcoords, std::uint64_t{c.leaf_texcoords}, required);

@@ -163,7 +163,8 @@ const Forgery k_forgeries[] = {
        put<std::uint32_t>(b, k_section_count, 4097),
            put(std::span(b), k_header_checksum, xxh3(std::span(b).first(k_header_checksum)));
      }},
-    {"SectionsFewer", "the section before ends at 112", [](Bytes& b) { set<std::uint32_t>(b, k_section_count, 1); }},
+    {"SectionsFewer", "the section before ends at 112",
+     [](Bytes& b) { set<std::uint32_t>(b, k_section_count, 1); }},
 };
 
 class Forged : public testing::TestWithParam<Forgery> {};

