@@ -1,0 +1,98 @@
+#include "lib/analysis/measure/footprints.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace copse {
+namespace {
+
+// Beyond it a float32 coordinate has no more digits for the place inside a repeat.
+constexpr float k_largest_coordinate = 1 << 16;
+
+bool usable(const Float2& p) {
+  return std::abs(p.x) <= k_largest_coordinate && std::abs(p.y) <= k_largest_coordinate;  // false for NaN
+}
+
+// The triangle's coordinates in a form that depends neither on its first corner, nor on its winding, nor on
+// the repeat; false when it has none.
+bool read_corners(const Mesh& mesh, std::uint32_t triangle, double tiles, std::array<Float2, 3>& corners) {
+  if (mesh.texcoord_triangles.empty()) return false;
+  float low_u = std::numeric_limits<float>::infinity(), low_v = low_u, high_u = -low_u, high_v = -low_u;
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t index = mesh.texcoord_triangles[triangle][i];
+    if (index >= mesh.texcoords.size() || !usable(mesh.texcoords[index])) return false;
+    corners[i] = mesh.texcoords[index];
+    low_u = std::min(low_u, corners[i].x), high_u = std::max(high_u, corners[i].x);
+    low_v = std::min(low_v, corners[i].y), high_v = std::max(high_v, corners[i].y);
+  }
+  if (high_u - low_u > tiles || high_v - low_v > tiles) return false;
+  for (Float2& c : corners) c = {c.x - std::floor(low_u), c.y - std::floor(low_v)};
+  std::sort(corners.begin(), corners.end(),
+            [](const Float2& a, const Float2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  return true;
+}
+
+std::uint64_t hash_of(const std::array<Float2, 3>& corners) {
+  std::uint64_t h = 0x9e3779b97f4a7c15u;
+  for (const Float2& c : corners) {
+    for (const float x : {c.x, c.y}) {
+      h = (h ^ std::bit_cast<std::uint32_t>(x + 0.0f)) * 0xff51afd7ed558ccdu;  // -0 as 0
+      h ^= h >> 32;
+    }
+  }
+  return h;
+}
+
+// Finds footprints by their corners: an open-addressed table of indices into the list.
+class Table {
+ public:
+  explicit Table(std::vector<Footprint>& list) : list_(list), slots_(64, k_none) {}
+
+  Footprint& find_or_add(const std::array<Float2, 3>& corners) {
+    if (2 * (list_.size() + 1) > slots_.size()) grow();
+    std::uint32_t& slot = slots_[slot_of(corners)];
+    if (slot == k_none) {
+      slot = static_cast<std::uint32_t>(list_.size());
+      list_.push_back({corners, 0});
+    }
+    return list_[slot];
+  }
+
+ private:
+  std::size_t slot_of(const std::array<Float2, 3>& corners) const {
+    std::size_t s = hash_of(corners) & (slots_.size() - 1);
+    while (slots_[s] != k_none && list_[slots_[s]].corners != corners) s = (s + 1) & (slots_.size() - 1);
+    return s;
+  }
+  void grow() {
+    slots_.assign(2 * slots_.size(), k_none);
+    for (std::uint32_t i = 0; i < list_.size(); ++i) slots_[slot_of(list_[i].corners)] = i;
+  }
+
+  std::vector<Footprint>& list_;
+  std::vector<std::uint32_t> slots_;
+};
+
+}  // namespace
+
+Footprints footprints(const Mesh& mesh, std::span<const std::uint32_t> triangles, double tiles) {
+  Footprints out;
+  Table table(out.list);
+  std::array<Float2, 3> corners;
+  for (const std::uint32_t t : triangles) {
+    const Triangle& v = mesh.triangles[t];
+    const Double3& a = mesh.positions[v[0]];
+    const double area = length(cross(mesh.positions[v[1]] - a, mesh.positions[v[2]] - a)) / 2;
+    if (read_corners(mesh, t, tiles, corners)) {
+      table.find_or_add(corners).area += area;
+    } else {
+      out.whole_area += area;
+      ++out.whole;
+    }
+  }
+  return out;
+}
+
+}  // namespace copse
