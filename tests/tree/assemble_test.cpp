@@ -13,7 +13,6 @@ struct Model {
   Tube tube = forked_tube();
   std::vector<std::uint32_t> leaf_of;
   std::vector<Double3> centres{{0, 9, 0.5}, {7, 6, 0.5}};
-  std::vector<double> areas{1, 3};
   TreeGroups groups;
 
   Model() {
@@ -37,8 +36,9 @@ struct Model {
     groups.group_of_radius = {k_none, k_none, 0, k_none, 1};
   }
   Assembled assemble_as(TreeKind kind, const Double3& origin = {}) const {
-    return assemble({tube.mesh, tube.trunk, tube.hierarchy, leaf_of, centres, areas, groups, origin},
-                    {.kind = kind});
+    return assemble(
+        {tube.mesh, tube.trunk, tube.hierarchy, leaf_geometry(tube.mesh, leaf_of, 2), groups, origin},
+        {.kind = kind});
   }
 };
 

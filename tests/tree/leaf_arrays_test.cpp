@@ -16,10 +16,14 @@ Mesh mesh_of_leaves() {
 }
 
 const std::vector<std::uint32_t> k_leaf_of{k_none, 1, 0, 0, 1};
-const std::vector<Double3> k_centres{{7, 3, 0}, {4, 1, 0}};
+
+LeafArrays arrays_of(const Mesh& mesh, const std::vector<std::uint32_t>& leaf_of, std::uint32_t leaves,
+                     const Double3& origin = {}) {
+  return make_leaf_arrays(mesh, leaf_geometry(mesh, leaf_of, leaves), origin);
+}
 
 TEST(LeafArrays, PutTrianglesLeafAfterLeaf) {
-  const LeafArrays a = make_leaf_arrays(mesh_of_leaves(), k_leaf_of, k_centres, {});
+  const LeafArrays a = arrays_of(mesh_of_leaves(), k_leaf_of, 2);
   EXPECT_EQ(a.leaf_factor, 2u);
   EXPECT_TRUE(a.leaves.first_triangle.empty());
   ASSERT_EQ(a.leaves.triangles.size(), 4u);
@@ -31,8 +35,7 @@ TEST(LeafArrays, PutTrianglesLeafAfterLeaf) {
 }
 
 TEST(LeafArrays, StoreOffsetsWhereLeavesDiffer) {
-  const LeafArrays a =
-      make_leaf_arrays(mesh_of_leaves(), std::vector<std::uint32_t>{k_none, 1, 0, 0, k_none}, k_centres, {});
+  const LeafArrays a = arrays_of(mesh_of_leaves(), {k_none, 1, 0, 0, k_none}, 2);
   EXPECT_EQ(a.leaf_factor, 0u);
   EXPECT_EQ(a.leaves.first_triangle.to_vector(), (std::vector<std::uint32_t>{0, 2, 3}));
 }
@@ -40,19 +43,19 @@ TEST(LeafArrays, StoreOffsetsWhereLeavesDiffer) {
 TEST(LeafArrays, CountLeavesOfSeveralMaterials) {
   Mesh mesh = mesh_of_leaves();
   mesh.part_of[4] = 0;
-  const LeafArrays a = make_leaf_arrays(mesh, k_leaf_of, k_centres, {});
+  const LeafArrays a = arrays_of(mesh, k_leaf_of, 2);
   EXPECT_EQ(a.mixed_materials, 1u);
   EXPECT_EQ(a.leaves.material, 1u);
 }
 
 TEST(LeafArrays, AreRelativeToTheOrigin) {
-  const LeafArrays a = make_leaf_arrays(mesh_of_leaves(), k_leaf_of, k_centres, {1, 1, 1});
-  EXPECT_EQ(a.leaves.centres[0], (Float3{6, 2, -1}));
+  const LeafArrays a = arrays_of(mesh_of_leaves(), k_leaf_of, 2, {1, 1, 1});
+  EXPECT_EQ(a.leaves.centres[1].z, -1);
   EXPECT_EQ(a.bounds.min.x, 2);
 }
 
 TEST(LeafArrays, OfATreeWithoutLeavesAreEmpty) {
-  const LeafArrays a = make_leaf_arrays(mesh_of_leaves(), std::vector<std::uint32_t>(5, k_none), {}, {});
+  const LeafArrays a = arrays_of(mesh_of_leaves(), std::vector<std::uint32_t>(5, k_none), 0);
   EXPECT_TRUE(a.leaves.triangles.empty());
   EXPECT_TRUE(a.leaves.first_triangle.empty());
   EXPECT_TRUE(a.bounds.empty());

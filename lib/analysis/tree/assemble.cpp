@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 namespace copse {
 namespace {
@@ -34,7 +35,7 @@ Double3 choose_origin(const DoubleBox& bounds) {
 Assembled assemble(const AssembleInput& in, const AssembleOptions& options) {
   TrunkArrays trunk =
       make_trunk_arrays(in.mesh, in.trunk, in.hierarchy, options.kind, in.origin, in.groups.group_of_radius);
-  LeafArrays leaves = make_leaf_arrays(in.mesh, in.leaf_of, in.leaf_centres, in.origin);
+  LeafArrays leaves = make_leaf_arrays(in.mesh, in.leaves, in.origin);
 
   Assembled out;
   out.mixed_materials = leaves.mixed_materials;
@@ -47,7 +48,7 @@ Assembled assemble(const AssembleInput& in, const AssembleOptions& options) {
   h.bounds.grow(leaves.bounds);
   h.area_density_centre = trunk.area_density_centre;
   h.mean_trunk_area = trunk.mean_area;
-  h.mean_leaf_area = mean(in.leaf_areas);
+  h.mean_leaf_area = mean(in.leaves.areas);
   h.roots = trunk.roots;
   h.ring_size = trunk.ring_size;
   h.segment_factor = trunk.segment_factor;

@@ -6,7 +6,6 @@
 #include "lib/formats/tree.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace copse {
@@ -29,9 +28,7 @@ struct AssembleInput {
   const Mesh& mesh;
   const TrunkMesh& trunk;
   const Hierarchy& hierarchy;
-  std::span<const std::uint32_t> leaf_of;  // one a mesh triangle
-  std::span<const Double3> leaf_centres;
-  std::span<const double> leaf_areas;  // one a leaf, alpha coverage counted
+  const LeafGeometry& leaves;
   const TreeGroups& groups;
   Double3 origin;
 };

@@ -2,12 +2,11 @@
 // items 21-24).
 #pragma once
 
+#include "lib/analysis/leaves/leaf_geometry.h"
 #include "lib/formats/mesh.h"
 #include "lib/formats/tree.h"
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
 namespace copse {
 
@@ -18,9 +17,7 @@ struct LeafArrays {
   std::uint64_t mixed_materials = 0;  // leaves whose triangles have several materials: the first one is kept
 };
 
-// `leaf_of`: one a mesh triangle, the leaf that it belongs to or k_none; every leaf 0 .. centres.size() - 1
-// has at least one triangle. `centres`: one a leaf. Positions are stored relative to `origin`. Linear.
-LeafArrays make_leaf_arrays(const Mesh& mesh, std::span<const std::uint32_t> leaf_of,
-                            std::span<const Double3> centres, const Double3& origin);
+// Positions are stored relative to `origin`; every leaf has at least one triangle. Linear.
+LeafArrays make_leaf_arrays(const Mesh& mesh, const LeafGeometry& geometry, const Double3& origin);
 
 }  // namespace copse
