@@ -74,6 +74,10 @@ bool is_sample_count(int samples) {
   return samples == 1;
 }
 
+bool is_path(const std::string& text) {
+  return text.empty() || text == "orbit" || text == "linear" || text.ends_with(".json");
+}
+
 Look look_of(const Options& options) {
   Look look;
   constexpr std::array<std::pair<std::string_view, Show>, 4> k_shows{{{"surface", Show::surface},
@@ -169,6 +173,10 @@ Result<Plan> understand(const Options& options) {
   if (!size) return std::unexpected(size.error());
   plan.width = (*size)[0];
   plan.height = (*size)[1];
+  if (!is_path(options.path)) {
+    return usage(fmt::format("--path '{}' is not a path", options.path),
+                 "write orbit, linear or the name of a .json file");
+  }
   plan.count = options.count.value_or(options.path.empty() ? 1 : 120);
   if (!options.frames.empty()) {
     auto pattern = FramePattern::parse(options.frames);
@@ -201,11 +209,7 @@ Result<CameraPath> make_path(const Options& options, const Camera& camera) {
   if (options.path.empty()) return CameraPath::still(camera);
   if (options.path == "orbit") return CameraPath::orbit(camera);
   if (options.path == "linear") return CameraPath::linear(camera);
-  if (!options.path.ends_with(".json")) {
-    return usage(fmt::format("--path '{}' is not a path", options.path),
-                 "write orbit, linear or the name of a .json file");
-  }
-  return read_path(options.path, camera.fov);
+  return read_path(options.path, camera.fov);  // understand() has seen to the name
 }
 
 }  // namespace copse::treeplay

@@ -124,7 +124,7 @@ ToolInfo info() {
 }
 
 Result<void> run(const Options& options, Context& context) {
-  const auto plan = understand(options);
+  auto plan = understand(options);
   if (!plan) return std::unexpected(plan.error());
   if (auto done = check_frames(*plan, context); !done) return done;
   const bool window = !plan->frames && !options.headless && has_display();
@@ -132,7 +132,8 @@ Result<void> run(const Options& options, Context& context) {
     return fail(Fault::usage, "", "there is no display to open a window on",
                 "write pictures with --frames NAME.png, or only measure with --headless");
   }
-  const auto scene = load_scene(options.input, context);
+  plan->settings.lights = window || plan->look.lit;
+  const auto scene = load_scene(options.input, plan->settings.lights, context);
   if (!scene) return std::unexpected(scene.error());
   if (plan->look.show != Show::surface && !scene->skeleton) {
     return fail(Fault::usage, options.input.string(), "is a mesh and has no hierarchy to show",

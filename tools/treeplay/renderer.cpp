@@ -94,7 +94,7 @@ Result<void> Renderer::make_lights() {
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 
-  const int size = std::min(settings_.shadow_size, largest_size_);
+  const int size = settings_.lights ? std::min(settings_.shadow_size, largest_size_) : 1;
   shadow_texture_ = make_texture();
   glBindTexture(GL_TEXTURE_2D, shadow_texture_.get());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, size, size, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
@@ -110,7 +110,7 @@ Result<void> Renderer::make_lights() {
   };
   compare_sampler_ = sampler(GL_LINEAR, GL_COMPARE_REF_TO_TEXTURE);
   depth_sampler_ = sampler(GL_NEAREST, GL_NONE);
-  draw_shadow_map();
+  if (settings_.lights) draw_shadow_map();
   return check_gl("drawing the shadow map");
 }
 

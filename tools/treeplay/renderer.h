@@ -27,6 +27,7 @@ struct RenderSettings {
   int samples = 4;         // a pixel: 1, 4, or 4 n^2
   Double3 sun{0, 1, 0};    // towards it; length 1, y > 0
   int shadow_size = 4096;  // texels a side
+  bool lights = true;      // false: nothing lit will be drawn, so nothing is prepared for it
 };
 
 // A picture that is about to be drawn: everything that the application decides.

@@ -57,13 +57,12 @@ double ground_under(const DoubleBox& box) {
   return box.min.y <= 0 && box.min.y >= -0.15 * height ? 0 : box.min.y;
 }
 
-// Brings the materials' textures in; a name is relative to the file that gives it.
+// Brings the textures in that something drawn uses; a name is relative to the file that gives it.
 void load_images(Scene& scene, const std::vector<Texture>& textures, const fs::path& file, Context& context) {
   scene.images.resize(textures.size());
   for (std::size_t i = 0; i < textures.size(); ++i) {
-    const bool used = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                  [&](const Material& m) { return m.texture == i; });
-    if (!used) continue;
+    const auto uses = [&](const DrawRange& range) { return material_of(scene, range).texture == i; };
+    if (std::none_of(scene.geometry.ranges.begin(), scene.geometry.ranges.end(), uses)) continue;
     const Texture& texture = textures[i];
     const fs::path path = file.parent_path() / texture.uri;
     Result<Image> image = texture.bytes.empty()
@@ -108,7 +107,7 @@ Result<void> take_mesh(Scene& scene, const fs::path& path, Context& context) {
 
 }  // namespace
 
-Result<Scene> load_scene(const fs::path& path, Context& context) {
+Result<Scene> load_scene(const fs::path& path, bool lights, Context& context) {
   Scene scene;
   scene.name = path.filename().string();
   {
@@ -118,6 +117,7 @@ Result<Scene> load_scene(const fs::path& path, Context& context) {
     stage.items(scene.triangles(), "triangles");
   }
   scene.ground = ground_under(scene.bounds());
+  if (!lights) return scene;
   Stage stage = context.stage("sky light");
   std::vector<float> opacity;
   for (const DrawRange& range : scene.geometry.ranges) {

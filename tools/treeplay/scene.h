@@ -37,7 +37,8 @@ struct Scene {
 Material material_of(const Scene& scene, const DrawRange& range);
 
 // Reads a .tree or .stree, or any mesh that treeprep reads. Images that cannot be read are warned about and
-// give way to the material's mean colour.
-Result<Scene> load_scene(const std::filesystem::path& path, Context& context);
+// give way to the material's mean colour. `lights`: whether anything lit will be drawn; if not, `sky` is
+// open.
+Result<Scene> load_scene(const std::filesystem::path& path, bool lights, Context& context);
 
 }  // namespace copse::treeplay

@@ -41,9 +41,11 @@ float value_noise(vec2 p) {
              mix(random(i + uvec2(0u, 1u)), random(i + uvec2(1u, 1u)), f.x), f.y);
 }
 
-vec3 sky(vec3 d) {
+// Below the horizon: what the horizon is there, so that hazy ground goes over into it.
+vec3 sky(vec3 direction) {
+  vec3 d = normalize(vec3(direction.x, max(direction.y, 0.0), direction.z));
   const vec3 k_horizon = vec3(0.68, 0.82, 0.93), k_zenith = vec3(0.06, 0.185, 0.50);
-  vec3 c = mix(k_horizon, k_zenith, pow(clamp(d.y, 0.0, 1.0), 0.44));
+  vec3 c = mix(k_horizon, k_zenith, 1.0 - pow(1.0 - d.y, 3.4));
   // High thin clouds on a plane, lost in the haze of the horizon.
   if (d.y > 0.01) {
     vec2 at = d.xz / (d.y + 0.06) * vec2(0.9, 1.5);
@@ -148,7 +150,7 @@ void main() {
     return;
   }
   float haze = 1.0 - exp(-pow(away / 13.0, 1.5));
-  colour = vec4(tone(mix(lit, sky(normalize(vec3(towards.x, 0.02, towards.z))), haze)), 1.0);
+  colour = vec4(tone(mix(lit, sky(vec3(towards.x, 0.0, towards.z)), haze)), 1.0);
 }
 )";
 
