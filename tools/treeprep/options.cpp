@@ -1,5 +1,6 @@
 #include "tools/treeprep/options.h"
 
+#include "lib/formats/import/limits.h"
 #include "tools/treeprep/parts.h"
 #include "tools/treeprep/run.h"
 
@@ -8,6 +9,16 @@
 #include <CLI/CLI.hpp>
 
 namespace copse::treeprep {
+
+namespace {
+
+std::vector<Limit> limits() {
+  std::vector<Limit> all;
+  for (const ImportLimit& l : import_limits()) all.push_back({l.name, l.value, l.unit});
+  return all;
+}
+
+}  // namespace
 
 ToolInfo info() {
   return {
@@ -19,7 +30,7 @@ ToolInfo info() {
           {{"treeprep oak.glb -o oak.stree --html oak.html", "prepare one tree and look at what was found"},
            {"treeprep pine.obj.gz -o pine.tree --up z --scale 0.01 --trunk '*bark*' --omit lines",
             "a mesh in centimetres, Z up, with its materials named, without the lines for distant views"}},
-      .limits = {}};
+      .limits = limits()};
 }
 
 void add_options(CLI::App& app, Options& options) {

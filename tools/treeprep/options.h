@@ -23,7 +23,7 @@ struct Options {
   Skeleton skeleton = Skeleton::automatic;
   std::uint32_t max_leaf_groups = 0;  // 0: as many as there are terminal radii with leaves
   LeafOrder leaf_order = LeafOrder::group;
-  double weld = 0;  // relative to the bounding box's diagonal; 0: the default of lib/analysis/trunk
+  double weld = -1;  // share of the bounding box's diagonal; negative: place by place (trunk/tolerances.h)
   std::vector<std::string> omit, only;  // names of parts.h
   Encoding encoding = Encoding::raw;
 };

@@ -1,0 +1,248 @@
+// treeprep as a user calls it: real processes on real files.
+#include "lib/formats/tree_file.h"
+#include "tests/tools/little_obj.h"
+#include "tests/tools/process.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+class Treeprep : public testing::Test {
+ protected:
+  std::string input(const std::string& text, const std::string& name = "tree.obj") {
+    write_text(folder_.file("none.mtl"), little_mtl());
+    write_text(folder_.file(name), text);
+    return folder_.file(name);
+  }
+  Outcome prepare(const std::string& mesh, const std::vector<std::string>& more = {},
+                  const std::string& out = "out.stree") {
+    std::vector<std::string> command{"treeprep", mesh, "-o", folder_.file(out)};
+    command.insert(command.end(), more.begin(), more.end());
+    return run_process(command);
+  }
+  Tree tree(const std::string& name = "out.stree") {
+    const auto file = TreeFile::open(folder_.file(name));
+    if (!file) throw std::runtime_error(file.error().what);
+    EXPECT_EQ(file->verify(), std::vector<std::string>{});
+    auto loaded = file->load();
+    if (!loaded) throw std::runtime_error(loaded.error().what);
+    return *loaded;
+  }
+  bool written(const std::string& name = "out.stree") { return std::filesystem::exists(folder_.file(name)); }
+  // Exit status, one line, nothing written.
+  void expect_refused(const Outcome& o, int status, const std::string& part) {
+    EXPECT_EQ(o.status, status) << o.err;
+    EXPECT_NE(o.err.find("treeprep: error: "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find(part), std::string::npos) << o.err;
+    EXPECT_FALSE(written());
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Treeprep, RecoversALittleTreeExactly) {
+  const Outcome o = prepare(input(little_tree_obj()));
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.out, "");
+  const Tree t = tree();
+  EXPECT_EQ(t.header.roots, 1u);
+  EXPECT_EQ(t.header.ring_size, 6u);
+  EXPECT_EQ(t.header.segment_factor, 12u);
+  EXPECT_EQ(t.radius_count(), 5u);
+  EXPECT_EQ(t.segment_count(), 4u);
+  EXPECT_EQ(t.leaf_count(), 4u);
+  EXPECT_EQ(t.leaves.groups.size(), 1u);
+  EXPECT_TRUE(t.header.monotone);
+  const std::vector<Double3> centres = absolute_centres(t);
+  for (int r = 0; r < 5; ++r) {
+    EXPECT_LT(distance(centres[r], {0, r - 1.0, 0}), 1e-6);
+    EXPECT_NEAR(t.hierarchy.radii[r].diameter, 1.0 - 0.15 * r, 1e-6);
+  }
+}
+
+TEST_F(Treeprep, WritesAStaticTreeWithoutAHierarchy) {
+  ASSERT_EQ(prepare(input(little_tree_obj()), {}, "out.tree").status, 0);
+  const Tree t = tree("out.tree");
+  EXPECT_EQ(t.header.kind, TreeKind::still);
+  EXPECT_TRUE(t.hierarchy.radii.empty());
+  EXPECT_EQ(t.trunk.vertices.size(), 30u);
+  EXPECT_EQ(t.trunk.lines.size(), 4u);
+}
+
+TEST_F(Treeprep, WritesTheSameBytesForAnyThreadCountAndFolder) {
+  const std::string mesh = input(little_tree_obj(8, 12, 60));
+  ASSERT_EQ(prepare(mesh, {"-j", "1"}, "a.stree").status, 0);
+  ASSERT_EQ(prepare(mesh, {"-j", "2"}, "b.stree").status, 0);
+  const TemporaryFolder elsewhere;
+  std::filesystem::copy(mesh, elsewhere.file("tree.obj"));
+  std::filesystem::copy(folder_.file("none.mtl"), elsewhere.file("none.mtl"));
+  ASSERT_EQ(run_process({"treeprep", elsewhere.file("tree.obj"), "-o", folder_.file("c.stree")}).status, 0);
+  const std::string bytes = read_text(folder_.file("a.stree"));
+  EXPECT_FALSE(bytes.empty());
+  EXPECT_EQ(bytes, read_text(folder_.file("b.stree")));
+  EXPECT_EQ(bytes, read_text(folder_.file("c.stree")));
+}
+
+TEST_F(Treeprep, AcceptsWhatObeysTheStrictModel) {
+  // The rules ask for a texture of trunk and leaves.
+  write_text(folder_.file("bark.png"), "");
+  const std::string mesh = input(little_tree_obj());
+  write_text(folder_.file("none.mtl"), "newmtl bark\nmap_Kd bark.png\nnewmtl leaf\nmap_Kd bark.png\n");
+  const Outcome o = prepare(mesh, {"--strict", "--omit", "textures"});
+  EXPECT_EQ(o.status, 0) << o.err;
+}
+
+TEST_F(Treeprep, NamesEveryBreachOfTheStrictModel) {
+  // A ring of five, and a quad for a leaf.
+  const Outcome o =
+      prepare(input(little_tree_obj(5, 4, 3, "v 9 9 9\nv 10 9 9\nv 10 10 9\nv 9 10 9\nf -4 -3 -2 -1\n")),
+              {"--strict"});
+  expect_refused(o, 1, "strict");
+  EXPECT_GE(line_count(o.err), 2u) << o.err;
+}
+
+TEST_F(Treeprep, LeavesOutWhatIsNotWantedAndSaysSo) {
+  ASSERT_EQ(prepare(input(little_tree_obj()), {"--omit", "leaves,lines,trunk-texcoords"}).status, 0);
+  const auto file = TreeFile::open(folder_.file("out.stree"));
+  ASSERT_TRUE(file);
+  for (const char* gone : {"LTRI", "LGRP", "TLIN", "TTEX"}) {
+    EXPECT_FALSE(file->has(gone)) << gone;
+    EXPECT_NE(std::find(file->omitted().begin(), file->omitted().end(), gone), file->omitted().end()) << gone;
+  }
+  EXPECT_TRUE(file->has("TTRI"));
+  ASSERT_EQ(prepare(input(little_tree_obj()), {"--only", "lines"}, "only.stree").status, 0);
+  const auto only = TreeFile::open(folder_.file("only.stree"));
+  ASSERT_TRUE(only);
+  EXPECT_TRUE(only->has("TLIN"));
+  EXPECT_FALSE(only->has("TTRI"));
+  EXPECT_LT(only->size(), file->size());
+}
+
+TEST_F(Treeprep, CapsTheNumberOfLeafGroups) {
+  const std::string two_trees = little_tree_obj(6, 5, 4);
+  ASSERT_EQ(prepare(input(two_trees), {"--max-leaf-groups", "1"}).status, 0);
+  EXPECT_EQ(tree().leaves.groups.size(), 1u);
+}
+
+TEST_F(Treeprep, ScalesAndStandsUp) {
+  ASSERT_EQ(prepare(input(little_tree_obj()), {"--scale", "0.01"}).status, 0);
+  EXPECT_NEAR(tree().header.trunk_bounds.max.y, 0.03, 1e-6);
+  ASSERT_EQ(prepare(input("v 0 0 -1\nv 1 0 -1\nv 0 1 -1\nv 0 0 4\nv 1 0 4\nv 0 1 4\n"
+                          "f 1 4 2\nf 2 4 5\nf 2 5 3\nf 3 5 6\nf 3 6 1\nf 1 6 4\n"),
+                    {"--up", "z", "--trunk", "*"}, "z.stree")
+                .status,
+            0);
+  EXPECT_FLOAT_EQ(tree("z.stree").header.bounds.max.y, 4);
+}
+
+TEST_F(Treeprep, GivesADefinedResultForEachExtreme) {
+  const std::string leaf_only =
+      "v 0 1 0\nv 1 1 0\nv 0 2 0\nv 5 1 0\nv 6 1 0\nv 5 2 0\nusemtl leaf\nf 1 2 3\nf 4 5 6\n";
+  ASSERT_EQ(prepare(input(leaf_only), {}, "leaves.stree").status, 0);
+  EXPECT_EQ(tree("leaves.stree").leaf_count(), 2u);
+  EXPECT_EQ(tree("leaves.stree").radius_count(), 0u);
+  EXPECT_GE(tree("leaves.stree").leaves.groups.size(), 1u);
+
+  ASSERT_EQ(prepare(input(little_tree_obj(6, 5, 0)), {}, "trunk.stree").status, 0);
+  EXPECT_EQ(tree("trunk.stree").leaf_count(), 0u);
+  EXPECT_EQ(tree("trunk.stree").radius_count(), 5u);
+
+  const Outcome single = prepare(input("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), {}, "single.stree");
+  ASSERT_EQ(single.status, 0) << single.err;
+  const Tree one = tree("single.stree");
+  EXPECT_EQ(one.trunk.triangles.size() + one.leaves.triangles.size(), 1u);
+
+  const Outcome trunk_triangle =
+      prepare(input("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), {"--trunk", "*"}, "single_trunk.stree");
+  ASSERT_EQ(trunk_triangle.status, 0) << trunk_triangle.err;
+  EXPECT_EQ(tree("single_trunk.stree").trunk.triangles.size(), 1u);
+}
+
+TEST_F(Treeprep, KeepsTheShapeOfATreeFarFromTheOrigin) {
+  std::string far;
+  const std::string near = little_tree_obj();
+  for (std::size_t at = 0; at < near.size();) {
+    const std::size_t end = near.find('\n', at);
+    const std::string line = near.substr(at, end - at);
+    double x = 0, y = 0, z = 0;
+    if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3) {
+      far += fmt::format("v {:.6f} {:.6f} {:.6f}\n", x + 1e7, y, z - 1e7);
+    } else {
+      far += line + "\n";
+    }
+    at = end + 1;
+  }
+  const Outcome o = prepare(input(far));
+  ASSERT_EQ(o.status, 0) << o.err;
+  const Tree t = tree();
+  EXPECT_EQ(t.header.ring_size, 6u);
+  const std::vector<Double3> centres = absolute_centres(t);
+  for (int r = 0; r < 5; ++r) {
+    EXPECT_LT(distance(centres[r] + t.header.origin, {1e7, r - 1.0, -1e7}), 2e-6);
+  }
+}
+
+TEST_F(Treeprep, PreparesTinyAndHugeTrees) {
+  for (const char* scale : {"1e-30", "1e30"}) {
+    const Outcome o = prepare(input(little_tree_obj()), {"--scale", scale});
+    ASSERT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(tree().radius_count(), 5u) << scale;
+  }
+  expect_refused(prepare(input(little_tree_obj()), {"--scale", "1e308"}, "x.stree"), 1, "scale");
+}
+
+TEST_F(Treeprep, PreparesAVineOfAHundredThousandSegments) {
+  const Outcome o = prepare(input(little_tree_obj(3, 100001, 1)), {"--trunk", "bark", "--leaf", "leaf"});
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(tree().radius_count(), 100001u);
+}
+
+TEST_F(Treeprep, RefusesWithOneLineAndWritesNothing) {
+  expect_refused(prepare(folder_.file("missing.obj")), 3, "missing.obj");
+  expect_refused(prepare(input("# nothing\n", "empty.obj")), 1, "empty.obj");
+  expect_refused(prepare(input("v 0 nan 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "nan.obj")), 1, "nan.obj");
+  expect_refused(prepare(input(little_tree_obj()), {}, "out.xyz"), 2, ".stree");
+  expect_refused(prepare(input(little_tree_obj()), {"--omit", "bananas"}), 2, "bananas");
+  expect_refused(prepare(input(little_tree_obj()), {"--omit", "lines", "--only", "lines"}), 2, "--only");
+  expect_refused(prepare(input(little_tree_obj()), {"--trunk", "bananas*"}), 2, "bananas");
+  expect_refused(prepare(input(little_tree_obj()), {"--scale", "-1"}), 2, "--scale");
+  EXPECT_EQ(line_count(prepare(input("# nothing\n", "empty.obj")).err), 1u);
+  EXPECT_EQ(run_process({"treeprep", input(little_tree_obj()), "-o", folder_.file("no/such/folder/x.stree")})
+                .status,
+            3);
+}
+
+TEST_F(Treeprep, ReportsWhatItFoundAndHowWrongItIs) {
+  const Outcome o =
+      prepare(input(little_tree_obj()), {"--report", folder_.file("r.json"), "--html", folder_.file("r.html"),
+                                         "--depfile", folder_.file("r.d")});
+  ASSERT_EQ(o.status, 0) << o.err;
+  const std::string json = read_text(folder_.file("r.json"));
+  for (const char* part :
+       {"copse.report/1", "\"treeprep\"", "\"read\"", "\"classify\"", "\"skeleton\"", "\"leaf groups\"",
+        "cylinder-surface of local radius", "trunk triangles unexplained", "\"found\"", "\"components\""}) {
+    EXPECT_NE(json.find(part), std::string::npos) << part;
+  }
+  const std::string html = read_text(folder_.file("r.html"));
+  EXPECT_NE(html.find("Skeleton over the mesh"), std::string::npos);
+  EXPECT_NE(html.find("<svg"), std::string::npos);
+  const std::string dependencies = read_text(folder_.file("r.d"));
+  EXPECT_NE(dependencies.find("tree.obj"), std::string::npos);
+  EXPECT_NE(dependencies.find("none.mtl"), std::string::npos);
+}
+
+TEST_F(Treeprep, MakesOneTreeOfSeveralMeshes) {
+  const std::string trunk = input(little_tree_obj(6, 5, 0), "trunk.obj");
+  const std::string leaves = input("v 0 4 0\nv 1 4 0\nv 0 5 0\nusemtl leaf\nf 1 2 3\n", "leaves.obj");
+  const Outcome o = run_process({"treeprep", trunk, leaves, "-o", folder_.file("out.stree")});
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(tree().radius_count(), 5u);
+  EXPECT_EQ(tree().leaf_count(), 1u);
+}
+
+}  // namespace
+}  // namespace copse

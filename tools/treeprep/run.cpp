@@ -1,0 +1,140 @@
+#include "tools/treeprep/run.h"
+
+#include "lib/analysis/leaves/classify.h"
+#include "lib/analysis/measure/cylinder_error.h"
+#include "lib/analysis/tree/assemble.h"
+#include "lib/analysis/trunk/recover.h"
+#include "lib/analysis/trunk/trunk_mesh.h"
+#include "lib/formats/tree_file.h"
+#include "tools/treeprep/findings.h"
+#include "tools/treeprep/input.h"
+#include "tools/treeprep/leaf_stage.h"
+#include "tools/treeprep/parts.h"
+#include "tools/treeprep/picture.h"
+#include "tools/treeprep/provenance.h"
+#include "tools/treeprep/strict_stage.h"
+#include "tools/treeprep/texture_stage.h"
+
+#include <fmt/format.h>
+
+namespace copse::treeprep {
+namespace {
+
+Result<TreeKind> kind_of(const std::filesystem::path& output) {
+  if (output.extension() == ".tree") return TreeKind::still;
+  if (output.extension() == ".stree") return TreeKind::sensitive;
+  return fail(Fault::usage, output.string(), "the output's extension picks its kind",
+              "name it .tree (static) or .stree (able to move)");
+}
+
+// Everything between the mesh and the file.
+struct Analysis {
+  Classification classes;
+  TrunkMesh trunk;
+  Hierarchy hierarchy;
+  LeafStage leaves;
+  Assembled assembled;
+};
+
+Result<Classification> classify_stage(const Input& input, const Options& options, Context& context) {
+  Stage stage = context.stage("classify");
+  stage.items(input.mesh.triangles.size(), "triangles");
+  auto classes = classify(input.mesh, {options.trunk_patterns, options.leaf_patterns});
+  if (!classes && classes.error().file.empty()) classes.error().file = input.name;
+  return classes;
+}
+
+TrunkMesh weld_stage(const Input& input, const Classification& classes, const Options& options,
+                     Context& context) {
+  Stage stage = context.stage("weld");
+  std::vector<std::uint8_t> is_trunk(input.mesh.triangles.size());
+  for (std::size_t t = 0; t < is_trunk.size(); ++t) is_trunk[t] = classes.leaf_of[t] == k_none;
+  const double tolerance = options.weld < 0 ? -1 : options.weld * length(bounds(input.mesh).extent());
+  TrunkMesh trunk = make_trunk_mesh(input.mesh, is_trunk, tolerance);
+  stage.items(trunk.triangles.size(), "trunk triangles");
+  return trunk;
+}
+
+Hierarchy skeleton_stage(const TrunkMesh& trunk, const Options& options, Context& context) {
+  Stage stage = context.stage("skeleton");
+  stage.items(trunk.triangles.size(), "trunk triangles");
+  return recover_hierarchy(trunk, {.skeleton = options.skeleton});
+}
+
+Result<Analysis> analyse(Input& input, const Options& options, TreeKind kind, const LeftOut& left_out,
+                         Context& context) {
+  Analysis a;
+  auto classes = classify_stage(input, options, context);
+  if (!classes) return std::unexpected(classes.error());
+  a.classes = std::move(*classes);
+  if (options.strict) {
+    if (const auto ok = strict_stage(input, a.classes, context); !ok) return std::unexpected(ok.error());
+  }
+  if (!left_out.textures) {
+    if (const auto ok = texture_stage(input, options, context); !ok) return std::unexpected(ok.error());
+  }
+  a.trunk = weld_stage(input, a.classes, options, context);
+  a.hierarchy = skeleton_stage(a.trunk, options, context);
+  const Double3 origin = choose_origin(bounds(input.mesh));
+  a.leaves = leaf_stage(input, a.classes, a.hierarchy, origin, options, left_out, context);
+
+  Stage stage = context.stage("assemble");
+  stage.items(input.mesh.triangles.size(), "triangles");
+  a.assembled = assemble({input.mesh, a.trunk, a.hierarchy, a.leaves.geometry, a.leaves.groups, origin},
+                         {.kind = kind, .leaf_order = options.leaf_order});
+  if (a.assembled.mixed_materials > 0) {
+    context.warn(fmt::format("{}: {} leaves use several materials; each is stored with its first", input.name,
+                             a.assembled.mixed_materials));
+  }
+  return a;
+}
+
+// The measures and pictures that only a report or a page shows.
+Result<void> report_stage(const Input& input, const Analysis& a, Context& context) {
+  Report& report = context.report();
+  report_findings({input.mesh, a.classes, a.trunk, a.hierarchy, a.assembled.tree}, report);
+  if (context.options().report.empty() && context.options().html.empty()) return {};
+  {
+    Stage stage = context.stage("measure");
+    stage.items(a.trunk.triangles.size(), "trunk triangles");
+    report_errors(cylinder_error(a.trunk, a.hierarchy, bounds(input.mesh).extent().y), report);
+  }
+  if (context.options().html.empty()) return {};
+  Stage stage = context.stage("draw");
+  auto skeletons = skeleton_pictures(input.mesh, a.classes, a.hierarchy);
+  if (!skeletons) return std::unexpected(skeletons.error());
+  auto groups = group_pictures(input.mesh, a.classes, a.leaves.groups.groups, a.assembled.tree.header.origin);
+  if (!groups) return std::unexpected(groups.error());
+  report.pictures = std::move(*skeletons);
+  report.pictures.insert(report.pictures.end(), groups->begin(), groups->end());
+  return {};
+}
+
+Result<void> write_stage(const Options& options, Analysis& a, const LeftOut& left_out, Context& context) {
+  Stage stage = context.stage("write");
+  auto origin = provenance(options, context.options().seed);
+  if (!origin) return std::unexpected(origin.error());
+  a.assembled.tree.provenance = std::move(*origin);
+  const auto bytes = encode_tree(a.assembled.tree, {.encoding = options.encoding, .omit = left_out.sections});
+  if (!bytes) return std::unexpected(bytes.error());
+  stage.items(bytes->size(), "bytes");
+  return context.write(options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+}
+
+}  // namespace
+
+Result<void> run(const Options& options, Context& context) {
+  const auto kind = kind_of(options.output);
+  if (!kind) return std::unexpected(kind.error());
+  const auto left_out = left_out_parts(options.omit, options.only);
+  if (!left_out) return std::unexpected(left_out.error());
+  if (const auto ok = context.check_output(options.output); !ok) return ok;
+  auto input = read_input(options, context);
+  if (!input) return std::unexpected(input.error());
+  auto analysis = analyse(*input, options, *kind, *left_out, context);
+  if (!analysis) return std::unexpected(analysis.error());
+  if (const auto ok = write_stage(options, *analysis, *left_out, context); !ok) return ok;
+  return report_stage(*input, *analysis, context);
+}
+
+}  // namespace copse::treeprep
