@@ -32,9 +32,9 @@ std::string describe(const StageRecord& stage) {
   text += fmt::format(", {} {}", stage.items, stage.unit);
   if (stage.items > 0 && stage.seconds > 1e-6) {
     double rate = static_cast<double>(stage.items) / stage.seconds;
-    const char* scale = rate >= 1e9 ? " G" : rate >= 1e6 ? " M" : rate >= 1e3 ? " k" : " ";
+    const char* scale = rate >= 1e9 ? "G " : rate >= 1e6 ? "M " : rate >= 1e3 ? "k " : "";
     rate /= rate >= 1e9 ? 1e9 : rate >= 1e6 ? 1e6 : rate >= 1e3 ? 1e3 : 1;
-    text += fmt::format(" ({:.3g}{}{}/s)", rate, scale, stage.unit);
+    text += fmt::format(" ({:.3g} {}{}/s)", rate, scale, stage.unit);
   }
   return text;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,10 +11,21 @@
 namespace copse {
 namespace {
 
-constexpr std::size_t k_label = 13;  // columns of the left margin of labels
+constexpr std::size_t k_label = 13;    // columns of the labels
+constexpr std::size_t k_columns = 98;  // of a line
 
-void add(std::string& out, const char* label, const std::string& text) {
-  if (!text.empty()) out += fmt::format("  {:<{}}{}\n", label, k_label, text);
+// A line with its label; what is too long goes on below, broken at commas.
+void add(std::string& out, const char* label, std::string_view text) {
+  while (!text.empty()) {
+    std::size_t end = text.size();
+    if (end > k_columns - k_label) {
+      const std::size_t comma = text.rfind(", ", k_columns - k_label);
+      end = std::min(comma == std::string_view::npos ? text.find(", ") : comma, text.size() - 1) + 1;
+    }
+    out += fmt::format("  {:<{}}{}\n", label, k_label, text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    label = "";
+  }
 }
 
 // Lists are joined by ", " and empty entries left out.
@@ -96,6 +108,7 @@ std::string texture_text(const Tree& tree, std::uint32_t index) {
   if (index >= tree.textures.size()) return fmt::format("texture {} (left out)", index);
   const Texture& texture = tree.textures[index];
   if (!texture.uri.empty()) return texture.uri;
+  if (texture.bytes.empty()) return "an image that was left out";
   return fmt::format("embedded {}, {}", texture.mime.empty() ? "image" : texture.mime,
                      bytes_text(texture.bytes.size()));
 }

@@ -95,6 +95,10 @@ std::string extension_of(const Texture& texture) {
 
 }  // namespace
 
+bool has_image(const Texture& texture) {
+  return !texture.bytes.empty() || !texture.uri.empty();
+}
+
 std::string image_mime(const Texture& texture) {
   const std::string_view bytes(reinterpret_cast<const char*>(texture.bytes.data()), texture.bytes.size());
   for (const Magic& magic : k_magics) {

@@ -14,6 +14,9 @@ Result<std::vector<ExportedFile>> export_ply(const Mesh& mesh, const std::string
 Result<std::vector<ExportedFile>> export_glb(const Mesh& mesh, const std::string& name,
                                              const ExportOptions& options);
 
+// Whether there is an image: its bytes, or a name to find it by.
+bool has_image(const Texture& texture);
+
 // "image/png", "image/jpeg", "image/webp", ...: what the bytes say, else what the texture says, else empty.
 std::string image_mime(const Texture& texture);
 

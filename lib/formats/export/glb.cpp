@@ -110,7 +110,8 @@ class GlbWriter {
 
   // A primitive without texture coordinates may not use a material with a texture: it gets one without.
   std::size_t material(std::uint32_t index, bool with_texture) {
-    const bool textured = with_texture && mesh_.materials[index].texture != k_none;
+    const std::uint32_t image = mesh_.materials[index].texture;
+    const bool textured = with_texture && image != k_none && has_image(mesh_.textures[image]);
     const auto [at, is_new] = material_numbers_.try_emplace({index, textured}, materials_.size());
     if (is_new) materials_.push_back(material_json(mesh_.materials[index], textured));
     return at->second;

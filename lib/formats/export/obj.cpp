@@ -104,7 +104,7 @@ std::string mtl_text(const Mesh& mesh, const std::vector<std::string>& names,
     add(out, "Ks {} {} {}\n", m.specular.x, m.specular.y, m.specular.z);
     if (m.emission != Float3{}) add(out, "Ke {} {} {}\n", m.emission.x, m.emission.y, m.emission.z);
     add(out, "Ns {}\nd {}\nillum 2\n", m.shininess, m.alpha);
-    if (m.texture == k_none) continue;
+    if (m.texture == k_none || !has_image(mesh.textures[m.texture])) continue;
     add(out, "map_Kd {}\n", textures[m.texture]);
     // An opacity map is how an MTL says that a material is drawn with an alpha test.
     if (m.alpha_cutoff > 0) add(out, "map_d {}\n", textures[m.texture]);
