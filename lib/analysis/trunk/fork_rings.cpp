@@ -45,9 +45,11 @@ Bands read_bands(const Surface& surface) {
   return bands;
 }
 
-Hierarchy read_fork_rings(const Surface& surface) {
+RingReading read_fork_rings(const Surface& surface) {
+  if (surface.triangles.empty()) return {};
   const Bands bands = read_bands(surface);
-  return walk_rings(surface, bands, make_ring_graph(surface, bands));
+  return {walk_rings(surface, bands, make_ring_graph(surface, bands)),
+          static_cast<double>(bands.triangles.size()) / static_cast<double>(surface.triangles.size())};
 }
 
 }  // namespace copse

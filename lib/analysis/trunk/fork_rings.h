@@ -14,6 +14,10 @@ Bands read_bands(const Surface& surface);
 
 // The bands' rings as a hierarchy of radii (ring_walk.h). Vertex and triangle ids are the surface's. There
 // are no radii when no ring can be read.
-Hierarchy read_fork_rings(const Surface& surface);
+struct RingReading {
+  Hierarchy hierarchy;
+  double in_bands = 0;  // share of the triangles that lie in bands
+};
+RingReading read_fork_rings(const Surface& surface);
 
 }  // namespace copse

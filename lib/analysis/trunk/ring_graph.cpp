@@ -10,18 +10,6 @@ namespace copse {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-Lists make_lists(Pairs pairs, std::size_t owners) {
-  std::ranges::sort(pairs);
-  const auto repeated = std::ranges::unique(pairs);
-  pairs.erase(repeated.begin(), repeated.end());
-  Lists lists;
-  lists.first.assign(owners + 1, 0);
-  lists.items.reserve(pairs.size());
-  for (const auto& [owner, item] : pairs) ++lists.first[owner + 1], lists.items.push_back(item);
-  for (std::size_t i = 0; i < owners; ++i) lists.first[i + 1] += lists.first[i];
-  return lists;
-}
-
 namespace {
 
 // Rings with the same vertices get the same node; nodes are numbered by their first ring.
@@ -57,12 +45,12 @@ void find_nodes(const Surface& surface, const Bands& bands, RingGraph& g) {
     }
     bands_of.emplace_back(g.node_of[r], r / 2);
   }
-  g.bands_of = make_lists(std::move(bands_of), g.nodes());
+  g.bands_of = make_lists(bands_of, g.nodes());
   Pairs nodes_of;
   for (std::uint32_t n = 0; n < g.nodes(); ++n) {
     for (const std::uint32_t v : bands.ring(g.ring[n])) nodes_of.emplace_back(v, n);
   }
-  g.nodes_of = make_lists(std::move(nodes_of), surface.positions.size());
+  g.nodes_of = make_lists(nodes_of, surface.positions.size());
 }
 
 // Unites nodes and patches into sites. Elements of the union: nodes first, then triangles.
@@ -158,8 +146,8 @@ class SiteFinder {
     for (std::uint32_t t = 0; t < s_.triangles.size(); ++t) {
       if (loose(t)) patch.emplace_back(site(element(t)), t);
     }
-    g_.ends = make_lists(std::move(ends), g_.sites);
-    g_.patch = make_lists(std::move(patch), g_.sites);
+    g_.ends = make_lists(ends, g_.sites);
+    g_.patch = make_lists(patch, g_.sites);
   }
 
   const Surface& s_;

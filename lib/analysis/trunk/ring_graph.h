@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/analysis/trunk/bands.h"
+#include "lib/analysis/trunk/lists.h"
 #include "lib/analysis/trunk/surface.h"
 
 #include <cstdint>
@@ -9,17 +10,6 @@
 #include <vector>
 
 namespace copse {
-
-// Lists of numbers, one list an owner.
-struct Lists {
-  std::vector<std::uint32_t> first{0}, items;
-  std::span<const std::uint32_t> operator[](std::size_t owner) const {
-    return std::span(items).subspan(first[owner], first[owner + 1] - first[owner]);
-  }
-};
-
-// (owner, item) pairs, sorted by owner and item, each once.
-Lists make_lists(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs, std::size_t owners);
 
 // A node is a distinct ring (rings of the same vertices are one). A site is a place where the ends of several
 // tubes meet: rings that share an edge without being the same, or that a patch (a connected set of triangles

@@ -155,12 +155,21 @@ class RingWalk {
     return best;
   }
 
-  // The way a limb goes away from the site that it ends at; zero for a ring without bands.
+  // The way a limb goes away from the site that it ends at, over the length of its own thickness, because the
+  // rings next to a fork lean; zero for a ring without bands.
   Double3 direction(std::uint32_t end) const {
-    for (const std::uint32_t b : g_.bands_of[end]) {
-      return normalized(g_.circle[g_.across(end, b)].centre - g_.circle[end].centre, {});
+    std::uint32_t last = k_none, n = end;
+    for (bool on = true; on;) {
+      on = false;
+      for (const std::uint32_t b : g_.bands_of[n]) {
+        const std::uint32_t m = g_.across(n, b);
+        if (b == last || m == end || is_point(m)) continue;
+        on = distance(g_.circle[m].centre, g_.circle[end].centre) < 2 * g_.circle[end].radius;
+        last = b, n = m;
+        break;
+      }
     }
-    return {};
+    return normalized(g_.circle[n].centre - g_.circle[end].centre, {});
   }
 
   // The ends of a site that are still to be placed: those that lie least on placed rings first (what goes on,

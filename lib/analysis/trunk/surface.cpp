@@ -220,4 +220,24 @@ Surface make_surface(const TrunkMesh& whole, std::span<const std::uint32_t> tria
   return s;
 }
 
+std::vector<std::uint32_t> border_loop(const Surface& surface, std::uint32_t triangle, std::size_t edge) {
+  std::vector<std::uint32_t> loop;
+  std::uint32_t t = triangle;
+  std::uint32_t a = surface.triangles[t][edge], b = surface.triangles[t][(edge + 1) % 3];
+  const std::uint32_t first = a, second = b;
+  do {
+    loop.push_back(a);
+    for (;;) {
+      const std::uint32_t x = third_corner(surface.triangles[t], a, b);
+      const std::uint32_t n =
+          surface.across[t][static_cast<std::size_t>(edge_between(surface.triangles[t], b, x))];
+      a = x;
+      if (n == k_none) break;
+      t = n;
+    }
+    std::swap(a, b);
+  } while (t != triangle || a != first || b != second);
+  return loop;
+}
+
 }  // namespace copse

@@ -45,4 +45,8 @@ inline int edge_between(const Triangle& t, std::uint32_t a, std::uint32_t b) {
   return t[0] != a && t[0] != b ? 1 : 2;
 }
 
+// The border through edge `edge` of `triangle`, which must be one: its vertices in order. Turns about each
+// vertex through the triangles that are partners across edges. Linear in what it passes.
+std::vector<std::uint32_t> border_loop(const Surface& surface, std::uint32_t triangle, std::size_t edge);
+
 }  // namespace copse

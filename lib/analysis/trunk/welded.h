@@ -15,8 +15,17 @@ enum class WeldedMethod : std::uint8_t {
   surface,    // surface skeleton only
 };
 
+// How a surface skeleton is found.
+enum class SurfaceMethod : std::uint8_t {
+  automatic,  // by levels; by flow too where levels fit badly and the surface is small enough, and the better
+              // one kept
+  levels,     // level_skeleton.h
+  flow,       // flow_skeleton.h; by levels where that can close nothing
+};
+
 struct WeldedOptions {
   WeldedMethod method = WeldedMethod::automatic;
+  SurfaceMethod surface = SurfaceMethod::automatic;
 };
 
 // Recovers the hierarchy of one connected surface. `triangles` are ids of whole.triangles, ascending; they

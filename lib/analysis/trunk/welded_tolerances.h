@@ -37,4 +37,88 @@ inline constexpr double k_lowness = 0.5;
 // axes, too little to move the crossing of others by more than a few hundredths of the gap.
 inline constexpr double k_meeting_pull = 0.02;
 
+// --- level_skeleton
+
+// Pieces that slicing may cut the triangles into, on average, beyond one each: enough for three slices across
+// the triangles of an even mesh, few enough to stay linear in time and memory ...
+inline constexpr double k_pieces_of_triangle = 3;
+// ... and how many more, so that a trunk of a hundred triangles is sliced as finely as a dense one.
+inline constexpr double k_pieces_at_least = 4096;
+// Slices from end to end. A limb longer than a thousand times its thickness loses no fork by it.
+inline constexpr double k_most_slices = 65536;
+// Share of the height within which vertices count as lowest: a foot that is cut level, not a slope.
+inline constexpr double k_lowest_share = 1.0 / 256;
+
+// --- section
+
+// Share of an outline's length: corners nearer than this are one; closer ones have no direction to turn by.
+inline constexpr double k_same_corner = 1e-9;
+// How much an outline may turn, to and fro, against once round, and still count by its turns.
+inline constexpr double k_nearly_convex = 1.5;
+
+// --- skeleton_limbs
+
+// Radii of the limb that it starts in: what reaches less far from the limb's axis is a bump on it. Its
+// surface is one radius away.
+inline constexpr double k_spur_reach = 1.5;
+// Radii of the fork: the stretch over which the limbs that leave it are compared; slices next to the fork are
+// torn.
+inline constexpr double k_fork_stretch = 3;
+// A limb shorter than so many of its radii counts at a fork as if it were thinner by as much.
+inline constexpr double k_limb_length = 4;
+
+// --- limb_samples
+
+// How fast a limb's rough radius may change along it; a slice that is thinner than that was torn.
+inline constexpr double k_steepest_taper = 0.5;
+// Radii between samples before they are thinned out: several to a bend.
+inline constexpr double k_sample_spacing = 1.5;
+// Share of a limb's length: thinner than this it counts as this thick when samples are spaced and left out,
+// so that a flat or empty outline, which has no radius, does not ask for infinitely many.
+inline constexpr double k_least_size = 1.0 / 4096;
+// Neighbouring skeleton points whose triangles are tried when a point has none.
+inline constexpr std::size_t k_seed_reach = 8;
+// Rough radii: a section that is wider belongs to something else.
+inline constexpr double k_widest_section = 3;
+// A sample moves, its neighbours' directions follow, it moves again: the second move is a tenth of the first.
+inline constexpr int k_section_rounds = 3;
+// Share of the way to a limb's end at which the end is measured: before a rounded edge, after a cone's
+// beginning.
+inline constexpr double k_end_section = 0.9;
+// Cosine: a limb whose last stretch bends less than 45 degrees is taken to end straight on.
+inline constexpr double k_straight_on = 0.7;
+// A section that is wider than both its neighbours by this cuts a fork.
+inline constexpr double k_bulge = 1.2;
+// Radii: how far a sample may be off the line between those that stay.
+inline constexpr double k_sample_tolerance = 0.1;
+// Radii: the longest segment, however straight the limb: a swaying one must be able to bend.
+inline constexpr double k_sample_gap = 24;
+
+// --- surface_skeleton
+
+// Radii of the parent: the stretch of a limb whose direction leads back to where it grows from, and how far
+// below the place where levels part that may be.
+inline constexpr double k_seat_from = 1.5, k_seat_to = 3, k_seat_reach = 3;
+// Radii of the parent before and behind a fork within which a section cuts the other limb too.
+inline constexpr double k_fork_before = 1, k_fork_behind = 0.25;
+
+// --- flow_skeleton
+
+// Triangles: a piece of more is thinned out to so many before it flows; each step factorises a matrix of that
+// size.
+inline constexpr std::size_t k_flow_triangles = 8000;
+
+// --- welded
+
+// Share of the triangles that lie between rings from which on the rings are taken without trying anything
+// else.
+inline constexpr double k_rings_suffice = 0.9;
+// How much worse the rings' fit may be than a surface skeleton's and still be taken: rings are what the
+// artist made.
+inline constexpr double k_rings_may_cost = 1.5;
+// Cost (see Fit) above which levels are doubted, and how much less another skeleton must cost to be taken
+// instead.
+inline constexpr double k_poor_fit = 0.02;
+inline constexpr double k_clearly_better = 0.8;
+
 }  // namespace copse

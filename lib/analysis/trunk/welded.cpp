@@ -1,0 +1,81 @@
+#include "lib/analysis/trunk/welded.h"
+
+#include "lib/analysis/trunk/fit.h"
+#include "lib/analysis/trunk/fork_rings.h"
+#include "lib/analysis/trunk/surface.h"
+#include "lib/analysis/trunk/surface_skeleton.h"
+#include "lib/analysis/trunk/welded_tolerances.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace copse {
+
+namespace {
+
+// The surface skeleton, and the name of the method that made it.
+std::pair<Hierarchy, const char*> skeletonize(const Surface& surface, SurfaceMethod method) {
+  if (method == SurfaceMethod::flow) {
+    return {surface_skeleton(surface, SkeletonMethod::flow), "mean-curvature flow"};
+  }
+  Hierarchy levels = surface_skeleton(surface, SkeletonMethod::levels);
+  if (method == SurfaceMethod::automatic && surface.triangles.size() <= k_flow_triangles) {
+    const double cost = fit_of(surface, levels).cost();
+    if (cost > k_poor_fit) {
+      Hierarchy flow = surface_skeleton(surface, SkeletonMethod::flow);
+      if (fit_of(surface, flow).cost() < k_clearly_better * cost)
+        return {std::move(flow), "mean-curvature flow"};
+    }
+  }
+  return {std::move(levels), "levels"};
+}
+
+// One radius round everything, for a surface of which nothing can be read.
+void add_only_radius(const Surface& s, Hierarchy& h) {
+  std::vector<std::uint32_t> all(s.positions.size());
+  for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
+  const RingCircle c = ring_circle(s.positions, all);
+  h.radii.push_back({c.centre, 2 * c.radius, k_none, false, RadiusSource::surface, 0});
+  h.ring_vertices = std::move(all);
+  h.first_vertex = {0, static_cast<std::uint32_t>(h.ring_vertices.size())};
+  h.segment_of.assign(s.triangles.size(), k_none);
+}
+
+Hierarchy recover_surface(const Surface& s, const WeldedOptions& options) {
+  RingReading rings;
+  if (options.method != WeldedMethod::surface) rings = read_fork_rings(s);
+  if (options.method == WeldedMethod::rings) {
+    if (rings.hierarchy.radii.empty()) add_only_radius(s, rings.hierarchy);
+    return std::move(rings.hierarchy);
+  }
+  if (rings.in_bands >= k_rings_suffice) return std::move(rings.hierarchy);
+  auto [skeleton, name] = skeletonize(s, options.surface);
+  if (!rings.hierarchy.radii.empty() &&
+      fit_of(s, rings.hierarchy).cost() <= k_rings_may_cost * fit_of(s, skeleton).cost()) {
+    return std::move(rings.hierarchy);
+  }
+  if (skeleton.radii.empty()) add_only_radius(s, skeleton);
+  skeleton.notes.push_back(
+      fmt::format("surface of {} triangles at mesh triangle {}: skeleton by {}, as {:.0f} % of it "
+                  "lies between rings",
+                  s.triangles.size(), s.order.front(), name, 100 * rings.in_bands));
+  return std::move(skeleton);
+}
+
+}  // namespace
+
+Hierarchy recover_welded(const TrunkMesh& whole, std::span<const std::uint32_t> triangles,
+                         const WeldedOptions& options) {
+  if (triangles.empty()) return {};
+  const Surface surface = make_surface(whole, triangles);
+  Hierarchy h = recover_surface(surface, options);
+  for (std::uint32_t& v : h.ring_vertices) v = surface.vertex[v];
+  std::vector<std::uint32_t> segment_of;
+  segment_of.reserve(triangles.size());
+  for (const std::uint32_t t : surface.triangle_of) segment_of.push_back(h.segment_of[t]);
+  h.segment_of = std::move(segment_of);
+  return h;
+}
+
+}  // namespace copse
