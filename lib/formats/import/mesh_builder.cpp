@@ -103,18 +103,13 @@ bool MeshBuilder::polygon(std::span<const Corner> corners, std::uint32_t part, c
     if (ring_.empty() || ring_.back().position != corner.position) ring_.push_back(corner);
   }
   while (ring_.size() > 1 && ring_.back().position == ring_.front().position) ring_.pop_back();
-  if (ring_.size() < 3)
-    return drop_face(place, [&] {
-      return fmt::format("the face has {} corners, {} of them distinct", corners.size(), ring_.size());
-    });
   number_faces();
-  outline_.clear();
-  for (const Corner& corner : ring_) outline_.push_back(mesh.positions[corner.position]);
-  for (const auto& [a, b, c] : cutter_.cut(outline_)) {
-    const Corner &p = ring_[a], &q = ring_[b], &r = ring_[c];
-    if (p.position != q.position && q.position != r.position && r.position != p.position)
-      triangle(p, q, r, part);
-  }
+  const std::size_t before = mesh.triangles.size();
+  if (ring_.size() >= 3) cut_ring(part);
+  if (mesh.triangles.size() == before)
+    return drop_face(place, [&] {
+      return fmt::format("the face has {} corners, fewer than 3 of them distinct", corners.size());
+    });
   if (cutter_.gave_up())
     notes.add("polygons cut as fans",
               fmt::format("{}: the polygon's {} corners are too entangled to be cut well", to_text(place),
@@ -122,6 +117,16 @@ bool MeshBuilder::polygon(std::span<const Corner> corners, std::uint32_t part, c
   if (ring_.size() > 3) ++counts.cut_polygons;
   ++faces_;
   return true;
+}
+
+void MeshBuilder::cut_ring(std::uint32_t part) {
+  outline_.clear();
+  for (const Corner& corner : ring_) outline_.push_back(mesh.positions[corner.position]);
+  for (const auto& [a, b, c] : cutter_.cut(outline_)) {
+    const Corner &p = ring_[a], &q = ring_[b], &r = ring_[c];
+    if (p.position != q.position && q.position != r.position && r.position != p.position)
+      triangle(p, q, r, part);
+  }
 }
 
 bool MeshBuilder::drop(std::string_view kind, std::uint64_t& count, const Place& place,

@@ -87,6 +87,7 @@ class MeshBuilder {
  private:
   void triangle(const Corner& a, const Corner& b, const Corner& c, std::uint32_t part);
   bool polygon(std::span<const Corner> corners, std::uint32_t part, const Place& place);
+  void cut_ring(std::uint32_t part);
   void number_faces();
   bool drop(std::string_view kind, std::uint64_t& count, const Place& place, const Reason& reason);
   void drop_spoilt(std::vector<std::uint32_t>& spoilt, std::vector<Triangle>& corners, std::uint64_t& count);

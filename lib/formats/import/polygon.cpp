@@ -11,8 +11,8 @@ namespace {
 // the difference is the rounding of a text format, and a row of equal quads should be cut alike.
 constexpr double k_diagonal_margin = 0.01;
 
-// Fewer reflex corners than this are tested one by one.
-constexpr std::size_t k_few = 32;
+constexpr std::uint32_t k_convex = 0xffffffffu;
+constexpr std::uint32_t k_nobody = 0xffffffffu;
 
 // Brings corners to about [-1, 1], so that products of lengths neither overflow nor vanish.
 struct Normalizer {
@@ -44,6 +44,7 @@ std::uint32_t spread_bits(std::uint32_t v) {
 std::span<const PolygonCutter::Cut> PolygonCutter::cut(std::span<const Double3> corners) {
   cuts_.clear();
   gave_up_ = false;
+  work_ = 0;
   if (corners.size() == 3) {
     cuts_.push_back({0, 1, 2});
   } else if (corners.size() == 4) {
@@ -127,30 +128,57 @@ std::uint32_t PolygonCutter::morton(const Point& p) const {
   return spread_bits(quantize(p.x)) | (spread_bits(quantize(p.y)) << 1);
 }
 
+// Sorts the reflex corners along a Morton curve and puts boxes round neighbours.
 void PolygonCutter::index_reflex() {
-  keys_.clear();
-  reflex_.assign(points_.size(), 0);
+  sorted_.clear();
+  boxes_.clear();
+  rank_.assign(points_.size(), k_convex);
+  std::vector<std::uint32_t> code(points_.size());
   for (std::uint32_t i = 0; i < points_.size(); ++i) {
     if (turn(i) > 0) continue;
-    reflex_[i] = 1;
-    keys_.push_back({morton(points_[i]), i});
+    code[i] = morton(points_[i]);
+    sorted_.push_back(i);
   }
-  std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) {
-    return a.code != b.code ? a.code < b.code : a.corner < b.corner;
-  });
-  reflex_count_ = keys_.size();
+  std::sort(sorted_.begin(), sorted_.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return code[a] != code[b] ? code[a] < code[b] : a < b; });
+  std::vector<Box2> level;
+  for (std::uint32_t i = 0; i < sorted_.size(); ++i) {
+    rank_[sorted_[i]] = i;
+    level.push_back({points_[sorted_[i]], points_[sorted_[i]], 1});
+  }
+  while (!level.empty() && (boxes_.empty() || boxes_.back().size() > 1)) {
+    std::vector<Box2> above;
+    for (std::size_t i = 0; i < level.size(); ++i) {
+      if (i % k_fan_out == 0) above.push_back({level[i].low, level[i].high, 0});
+      Box2& box = above.back();
+      box.low = {std::min(box.low.x, level[i].low.x), std::min(box.low.y, level[i].low.y)};
+      box.high = {std::max(box.high.x, level[i].high.x), std::max(box.high.y, level[i].high.y)};
+      box.reflex += level[i].reflex;
+    }
+    boxes_.push_back(above);
+    level = std::move(above);
+  }
 }
 
-void PolygonCutter::update_reflex(std::uint32_t i) {
-  if (reflex_[i] == 0 || turn(i) <= 0) return;
-  reflex_[i] = 0;
-  --reflex_count_;
+void PolygonCutter::forget_reflex(std::uint32_t i) {
+  if (rank_[i] == k_convex) return;
+  std::uint32_t at = rank_[i];
+  rank_[i] = k_convex;
+  for (std::vector<Box2>& level : boxes_) --level[at /= k_fan_out].reflex;
+  for (std::uint32_t w = first_waiting_[i]; w != k_nobody; w = waiting_[w].next) enqueue(waiting_[w].corner);
+  first_waiting_[i] = k_nobody;
+}
+
+void PolygonCutter::enqueue(std::uint32_t i) {
+  if (queued_[i]) return;
+  queued_[i] = true;
+  queue_.push_back(i);
 }
 
 // Whether `corner` lies in the triangle of `ear` or on its border.
 bool PolygonCutter::blocks(std::uint32_t corner, std::uint32_t ear) const {
   const std::uint32_t ia = previous_[ear], ic = next_[ear];
-  if (reflex_[corner] == 0 || corner == ia || corner == ear || corner == ic) return false;
+  if (rank_[corner] == k_convex || corner == ia || corner == ear || corner == ic) return false;
   const Point &a = points_[ia], &b = points_[ear], &c = points_[ic], &p = points_[corner];
   const auto same = [&](const Point& q) { return q.x == p.x && q.y == p.y; };
   if (same(a) || same(b) || same(c)) return false;  // where a keyhole joins a hole to the outline
@@ -160,25 +188,55 @@ bool PolygonCutter::blocks(std::uint32_t corner, std::uint32_t ear) const {
   return side(a, b) >= 0 && side(b, c) >= 0 && side(c, a) >= 0;
 }
 
+// Whether a box lies wholly outside one edge of the triangle of `ear`. Rounding is monotone, so this is never
+// true of a box with a point that blocks() would find.
+bool PolygonCutter::misses(const Box2& box, std::uint32_t ear) const {
+  const Point &a = points_[previous_[ear]], &b = points_[ear], &c = points_[next_[ear]];
+  const auto outside = [&box](const Point& q, const Point& r) {
+    const double ex = r.x - q.x, ey = r.y - q.y;
+    const double x = ey > 0 ? box.low.x : box.high.x;
+    const double y = ex > 0 ? box.high.y : box.low.y;
+    return ex * (y - q.y) - ey * (x - q.x) < 0;
+  };
+  const auto beyond = [](double low, double high, double p, double q, double r) {
+    return high < std::min({p, q, r}) || low > std::max({p, q, r});
+  };
+  return beyond(box.low.x, box.high.x, a.x, b.x, c.x) || beyond(box.low.y, box.high.y, a.y, b.y, c.y) ||
+         outside(a, b) || outside(b, c) || outside(c, a);
+}
+
+// A reflex corner in the triangle of corner i, or k_nobody.
+std::uint32_t PolygonCutter::find_blocker(std::uint32_t i) {
+  if (boxes_.empty()) return k_nobody;
+  stack_.assign(1, {static_cast<std::uint32_t>(boxes_.size() - 1), 0});
+  while (!stack_.empty()) {
+    const auto [level, index] = stack_.back();
+    stack_.pop_back();
+    const Box2& box = boxes_[level][index];
+    ++work_;
+    if (box.reflex == 0 || misses(box, i)) continue;
+    const std::uint32_t first = index * k_fan_out;
+    const auto below = static_cast<std::uint32_t>(level > 0 ? boxes_[level - 1].size() : sorted_.size());
+    const std::uint32_t last = std::min(first + k_fan_out, below);
+    for (std::uint32_t k = first; k < last; ++k) {
+      if (level > 0) {
+        stack_.push_back({level - 1, k});
+      } else if (++work_, blocks(sorted_[k], i)) {
+        return sorted_[k];
+      }
+    }
+  }
+  return k_nobody;
+}
+
 bool PolygonCutter::is_ear(std::uint32_t i) {
   ++work_;
-  if (turn(i) <= 0) return false;
-  if (reflex_count_ == 0) return true;
-  auto first = keys_.begin();
-  std::uint32_t last_code = 0xffffffffu;
-  if (keys_.size() > k_few) {
-    const Point &a = points_[previous_[i]], &b = points_[i], &c = points_[next_[i]];
-    const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
-    const auto [low_y, high_y] = std::minmax({a.y, b.y, c.y});
-    last_code = morton({high_x, high_y});
-    first = std::lower_bound(first, keys_.end(), morton({low_x, low_y}),
-                             [](const Key& key, std::uint32_t code) { return key.code < code; });
-  }
-  for (; first != keys_.end() && first->code <= last_code; ++first) {
-    ++work_;
-    if (blocks(first->corner, i)) return false;
-  }
-  return true;
+  if (next_[i] == k_nobody || turn(i) <= 0) return false;
+  const std::uint32_t blocker = find_blocker(i);
+  if (blocker == k_nobody) return true;
+  waiting_.push_back({i, first_waiting_[blocker]});
+  first_waiting_[blocker] = static_cast<std::uint32_t>(waiting_.size() - 1);
+  return false;
 }
 
 // Cuts corner i off and returns the one after it.
@@ -187,45 +245,49 @@ std::uint32_t PolygonCutter::clip(std::uint32_t i) {
   cuts_.push_back({before, i, after});
   next_[before] = after;
   previous_[after] = before;
-  if (reflex_[i] != 0) {
-    reflex_[i] = 0;
-    --reflex_count_;
-  }
-  update_reflex(before);
-  update_reflex(after);
-  if (keys_.size() > k_few && keys_.size() > 2 * reflex_count_) {
-    work_ += keys_.size();
-    std::erase_if(keys_, [this](const Key& key) { return reflex_[key.corner] == 0; });
-  }
+  next_[i] = k_nobody;
+  forget_reflex(i);
+  if (turn(before) > 0) forget_reflex(before);
+  if (turn(after) > 0) forget_reflex(after);
+  enqueue(before);
+  enqueue(after);
   return after;
 }
 
+// The next corner to cut off. When no ear is left the polygon crosses itself or is flat there: then it is the
+// next convex corner after `from`, or any.
+std::uint32_t PolygonCutter::choose(std::uint32_t& from) {
+  while (queue_front_ < queue_.size()) {
+    const std::uint32_t i = queue_[queue_front_++];
+    queued_[i] = false;
+    if (is_ear(i)) return i;
+  }
+  while (next_[from] == k_nobody) ++from;  // the first that is left; never beyond the last
+  std::uint32_t i = from;
+  do {
+    ++work_;
+    if (turn(i) > 0) return i;
+    i = next_[i];
+  } while (i != from);
+  return from;
+}
+
 void PolygonCutter::clip_ears() {
-  index_reflex();
   const std::uint64_t n = points_.size();
   const std::uint64_t budget = k_cut_budget * n * std::bit_width(n);
-  work_ = 0;
-  std::uint32_t i = 0;
-  std::size_t left = n;
-  std::size_t passed = 0;  // corners in a row that were no ears
-  while (left > 3) {
-    if (work_ > budget) {
-      gave_up_ = true;
-      break;
-    }
-    // When no ear is left the polygon crosses itself or is flat there: cut anyway, a convex corner if there
-    // is one.
-    const bool desperate = passed >= left;
-    if (is_ear(i) || (desperate && turn(i) > 0) || passed >= 2 * left) {
-      i = next_[clip(i)];  // skipping one: slender fans are avoided
-      --left;
-      passed = 0;
-    } else {
-      i = next_[i];
-      ++passed;
-    }
+  queue_.clear();
+  queue_front_ = 0;
+  queued_.assign(n, false);
+  first_waiting_.assign(n, k_nobody);
+  waiting_.clear();
+  index_reflex();
+  for (std::uint32_t i = 0; i < n; ++i) enqueue(i);
+  std::uint32_t from = 0, after = 0;
+  for (std::size_t left = n; left > 3 && !gave_up_; --left) {
+    after = clip(choose(from));
+    gave_up_ = work_ > budget;
   }
-  fan(i);
+  fan(after);
 }
 
 void PolygonCutter::fan(std::uint32_t first) {
