@@ -31,7 +31,7 @@ struct Model {
         leaf_of.push_back(leaf);
       }
     }
-    groups.groups = {{to_float(centres[0]), 1.2f, 1, 0, 1}, {to_float(centres[1]), 1.2f, 3, 1, 1}};
+    groups.groups = {{to_float(centres[0]), 1.2f, 2, 0, 1}, {to_float(centres[1]), 1.2f, 2, 1, 1}};
     groups.order = {0, 1};
     groups.group_of_radius = {k_none, k_none, 0, k_none, 1};
   }

@@ -3,6 +3,7 @@
 #include "lib/analysis/leaves/classify.h"
 #include "lib/analysis/measure/cylinder_error.h"
 #include "lib/analysis/tree/assemble.h"
+#include "lib/analysis/tree/lone_segment.h"
 #include "lib/analysis/trunk/recover.h"
 #include "lib/analysis/trunk/trunk_mesh.h"
 #include "lib/formats/tree_file.h"
@@ -58,7 +59,9 @@ TrunkMesh weld_stage(const Input& input, const Classification& classes, const Op
 Hierarchy skeleton_stage(const TrunkMesh& trunk, const Options& options, Context& context) {
   Stage stage = context.stage("skeleton");
   stage.items(trunk.triangles.size(), "trunk triangles");
-  return recover_hierarchy(trunk, {.skeleton = options.skeleton});
+  Hierarchy hierarchy = recover_hierarchy(trunk, {.skeleton = options.skeleton});
+  add_lone_segment(trunk, hierarchy);
+  return hierarchy;
 }
 
 Result<Analysis> analyse(Input& input, const Options& options, TreeKind kind, const LeftOut& left_out,
