@@ -127,15 +127,15 @@ void main() {
   vec2 at = (v_local - ground_centre).xz / ground_scale;
   float away = length(at);
   // Patches, tufts and grain; each fades out before it gets finer than a fragment.
-  float fine = length(fwidth(at));
+  float fine = sqrt(length(dFdx(at)) * length(dFdy(at)));
   float patches = value_noise(at * 1.7 + 5.0) + 0.5 * value_noise(at * 4.1 + 9.0) - 0.75;
   float grain = 0.0, weight = 0.5;
   for (float f = 23.0; f < 2500.0; f *= 2.7) {
     grain += weight * (value_noise(at * f + f) - 0.5) * (1.0 - smoothstep(0.25, 1.1, fine * f));
     weight *= 0.85;
   }
-  vec3 albedo = k_ground_colour * (1.0 + 0.22 * patches + 0.75 * grain);
-  albedo = mix(albedo, albedo * vec3(1.34, 1.06, 0.80), smoothstep(-0.5, 0.7, patches + 0.8 * grain));
+  vec3 albedo = k_ground_colour * (1.0 + 0.16 * patches + 0.95 * grain);
+  albedo = mix(albedo, albedo * vec3(1.34, 1.06, 0.80), 0.8 * smoothstep(-0.6, 1.0, patches + 0.8 * grain));
   if (studio) albedo = vec3(0.62);
   const vec3 k_up = vec3(0.0, 1.0, 0.0);
   float sun = sunlight(v_local, k_up) * max(sun_direction.y, 0.0);
