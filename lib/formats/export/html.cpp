@@ -5,7 +5,6 @@
 #include "lib/formats/export/html_text.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -43,11 +42,11 @@ void add_figure(std::string& out, const std::string& name, const std::string& va
   out += "</div>";
 }
 
-// What the run went through: the stage with the most items of a kind that the others do not have more of.
+// What the run went through: the stage with the most items; bytes are told elsewhere.
 const StageRecord* largest_stage(const Report& report) {
   const StageRecord* best = nullptr;
   for (const StageRecord& stage : report.stages) {
-    if (stage.unit.empty() || stage.items == 0) continue;
+    if (stage.unit.empty() || stage.unit == "bytes" || stage.items == 0) continue;
     if (best == nullptr || stage.items > best->items) best = &stage;
   }
   return best;
@@ -146,14 +145,9 @@ void add_errors(std::string& out, const Report& report) {
 }
 
 void add_legend(std::string& out, std::span<const Curve> curves) {
-  static constexpr std::array<const char*, 4> k_shapes{
-      "<circle cx=\"11\" cy=\"7\" r=\"4.5\"/>", "<path d=\"M7 3h8v8h-8z\"/>",
-      "<path d=\"M11 1.5l5 9h-10z\"/>", "<path d=\"M11 1.5l5.5 5.5l-5.5 5.5l-5.5-5.5z\"/>"};
   out += "<ul class=\"legend\">";
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    out += fmt::format(
-        "<li><svg viewBox=\"0 0 22 14\" aria-hidden=\"true\"><g class=\"series c{}\">{}</g></svg>{}</li>",
-        i % 8, k_shapes[i % 4], escape_html(curves[i].name));
+    out += fmt::format("<li>{}{}</li>", legend_svg(curves[i], i), escape_html(curves[i].name));
   }
   out += "</ul>";
 }
@@ -191,12 +185,13 @@ void add_curves(std::string& out, const Report& report) {
   out += "<section><h2>Curves</h2>";
   for (std::size_t i = 0; i < charts.size(); ++i) {
     const std::string svg = chart_svg(charts[i], fmt::format("chart{}", i + 1));
-    out += "<figure>";
-    add_legend(out, charts[i]);
-    out += svg.empty() ? "<p class=\"soft\">no point of these curves is finite</p>" : svg;
-    add_curve_table(out, charts[i]);
-    out += fmt::format("<figcaption><strong>{}</strong> against {}</figcaption></figure>",
+    out += fmt::format("<figure><figcaption><strong>{}</strong> against {}</figcaption>",
                        escape_html(charts[i].front().y), escape_html(charts[i].front().x));
+    add_legend(out, charts[i]);
+    out += svg.empty() ? "<p class=\"soft\">no point of these curves is finite</p>"
+                       : fmt::format("<div class=\"plot\">{}</div>", svg);
+    add_curve_table(out, charts[i]);
+    out += "</figure>";
   }
   out += "</section>\n";
 }

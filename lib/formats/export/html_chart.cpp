@@ -13,8 +13,8 @@
 namespace copse {
 namespace {
 
-constexpr double k_width = 720, k_height = 380;
-constexpr double k_left = 74, k_right = 20, k_top = 34, k_bottom = 50;
+constexpr double k_width = 940, k_height = 390;
+constexpr double k_left = 70, k_right = 16, k_top = 34, k_bottom = 50;
 constexpr double k_log_span = 50;  // values that span more than this factor get a logarithmic axis
 constexpr double k_glyph = 6.6;    // mean width of a character of the labels
 constexpr std::size_t k_colours = 8;
@@ -190,20 +190,27 @@ void draw_labels(std::string& out, const std::vector<std::vector<Placed>>& serie
   out += "</g>";
 }
 
+// Points without labels belong to a line; labelled ones stand for themselves.
+bool is_line(const Curve& curve) {
+  return curve.points.size() > 1 && std::all_of(curve.points.begin(), curve.points.end(),
+                                                [](const CurvePoint& p) { return p.label.empty(); });
+}
+
+// Marks on a dense line would hide it.
+bool has_marks(const Curve& curve) {
+  return !is_line(curve) || curve.points.size() <= 60;
+}
+
 void draw_series(std::string& out, std::size_t index, const Curve& curve, const std::vector<Placed>& points) {
-  const bool line =
-      std::all_of(points.begin(), points.end(), [](const Placed& p) { return p.point->label.empty(); });
   out += fmt::format("<g class='series c{}'>", index % k_colours);
-  if (line && points.size() > 1) {
+  if (is_line(curve)) {
     std::string path;
     for (const Placed& p : points) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", p.x, p.y);
-    out += "<path class='line' d='" + path + "'/>";
+    out += fmt::format("<path class='line' d='{}'/>", path);
   }
-  // Marks on a dense line would hide it.
-  const bool marks = !line || points.size() <= 60;
   for (const Placed& p : points) {
-    if (!marks) break;
-    const std::string label = p.point->label.empty() ? "" : ", " + escape_html(p.point->label);
+    if (!has_marks(curve)) break;
+    const std::string label = p.point->label.empty() ? "" : fmt::format(", {}", escape_html(p.point->label));
     out += fmt::format("<g>{}<title>{}{}: {} {}, {} {}</title></g>", marker(index, p.x, p.y),
                        escape_html(curve.name), label, escape_html(curve.x), show_number(p.point->x, 4),
                        escape_html(curve.y), show_number(p.point->y, 4));
@@ -239,6 +246,12 @@ std::string chart_svg(std::span<const Curve> curves, const std::string& id) {
   for (std::size_t i = 0; i < series.size(); ++i) draw_series(out, i, curves[i], series[i]);
   draw_labels(out, series);
   return out + "</svg>";
+}
+
+std::string legend_svg(const Curve& curve, std::size_t index) {
+  return fmt::format("<svg viewBox='0 0 26 14' aria-hidden='true'><g class='series c{}'>{}{}</g></svg>",
+                     index % k_colours, is_line(curve) ? "<path class='line' d='M1 7H25'/>" : "",
+                     has_marks(curve) ? marker(index, 13, 7) : "");
 }
 
 }  // namespace copse

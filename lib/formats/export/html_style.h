@@ -26,7 +26,7 @@ h3{margin:28px 0 8px;font-size:1rem;font-weight:600}
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(150px,1fr));gap:12px;margin:28px 0 0;padding:0}
 .figures div{background:var(--card);border:1px solid var(--rule);border-radius:10px;padding:14px 16px 12px}
 .figures dt{color:var(--soft);font-size:.82rem}
-.figures dd{margin:0;font-size:1.45rem;font-weight:600;line-height:1.3;white-space:nowrap}
+.figures dd{margin:0;font-size:1.35rem;font-weight:600;line-height:1.3;white-space:nowrap}
 .figures dd+dd{font-size:.82rem;font-weight:400;color:var(--soft);white-space:normal;overflow-wrap:anywhere}
 .scroll{overflow-x:auto;background:var(--card);border:1px solid var(--rule);border-radius:10px}
 table{border-collapse:collapse;width:100%;font-size:.92rem}
@@ -46,13 +46,16 @@ border-radius:0 10px 10px 0}
 .warnings li{overflow-wrap:anywhere}
 figure{margin:0 0 20px;background:var(--card);border:1px solid var(--rule);border-radius:10px;padding:18px 18px 14px}
 figure svg{display:block;width:100%;height:auto;max-height:720px}
-figcaption{margin-top:10px;color:var(--soft);font-size:.9rem}
+figcaption{margin:10px 0 0;color:var(--soft);font-size:.9rem}
 figcaption strong{color:var(--ink);font-weight:600}
+figcaption:first-child{margin:0 0 8px}
 .legend{display:flex;flex-wrap:wrap;gap:4px 20px;margin:0 0 8px;padding:0;list-style:none;font-size:.9rem}
-.legend svg{display:inline-block;width:22px;height:14px;vertical-align:-2px;margin-right:6px}
+.legend svg{display:inline-block;width:26px;height:14px;vertical-align:-2px;margin-right:6px}
 details{margin-top:10px;font-size:.9rem}
 summary{cursor:pointer;color:var(--soft)}
 details .scroll{margin-top:8px;max-height:340px;overflow:auto}
+.plot{overflow-x:auto}
+.plot svg{min-width:600px}
 .chart text{font:12px system-ui,-apple-system,"Segoe UI",Roboto,"Noto Sans","DejaVu Sans",sans-serif;fill:var(--soft)}
 .chart .axis{font-weight:600}
 .chart .labels text{fill:var(--ink)}
@@ -64,6 +67,7 @@ details .scroll{margin-top:8px;max-height:340px;overflow:auto}
 .c4{--c:var(--c4)}.c5{--c:var(--c5)}.c6{--c:var(--c6)}.c7{--c:var(--c7)}
 .pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,440px),1fr));gap:20px}
 .pictures figure{margin:0}
+.pictures svg{background:#f6f7f3;border-radius:6px}
 footer{padding:40px 28px 48px;color:var(--soft);font-size:.85rem}
 @media print{body{background:#fff}.scroll,figure,.figures div{break-inside:avoid}}
 )css";

@@ -1,5 +1,6 @@
 #include "lib/formats/export/html_text.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -66,8 +67,9 @@ std::string magnitude(double value, int digits) {
     const std::string mantissa = trimmed(rounded.substr(0, e));
     return (mantissa == "1" ? "" : mantissa + "·") + "10" + superscript(exponent);
   }
-  if (exponent >= digits - 1) return grouped(fmt::format("{:.0f}", value));
-  return trimmed(fmt::format("{:.{}f}", value, digits - 1 - exponent));
+  const std::string text = trimmed(fmt::format("{:.{}f}", value, std::max(digits - 1 - exponent, 0)));
+  const std::size_t whole = std::min(text.find('.'), text.size());
+  return grouped(text.substr(0, whole)) + text.substr(whole);
 }
 
 }  // namespace
