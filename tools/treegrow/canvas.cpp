@@ -6,14 +6,23 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace copse::grow {
 namespace {
 
+// By table: of each of 65536 steps of linear light, the nearest of sRGB's 256.
 std::uint8_t to_srgb(double linear) {
-  const double c = std::clamp(linear, 0.0, 1.0);
-  const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * s));
+  static const std::vector<std::uint8_t> table = [] {
+    std::vector<std::uint8_t> t(65536);
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const double c = static_cast<double>(i) / 65535;
+      const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+      t[i] = static_cast<std::uint8_t>(std::lround(255 * s));
+    }
+    return t;
+  }();
+  return table[static_cast<std::size_t>(std::lround(65535 * std::clamp(linear, 0.0, 1.0)))];
 }
 
 double as_unit(std::uint64_t bits) {
@@ -93,10 +102,16 @@ std::uint64_t Noise::lattice(int x, int y, int px, int py) const {
 double Noise::smooth(double x, double y, int px, int py) const {
   const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
   const double u = x - i, v = y - j;
-  // Gradient noise: at each lattice point a slope of its own.
+  // Gradient noise: at each lattice point one of 64 slopes.
+  static const std::vector<std::pair<double, double>> slopes = [] {
+    std::vector<std::pair<double, double>> all;
+    for (int k = 0; k < 64; ++k)
+      all.emplace_back(std::cos(k * std::numbers::pi / 32), std::sin(k * std::numbers::pi / 32));
+    return all;
+  }();
   const auto slope = [&](int a, int b) {
-    const double angle = as_unit(lattice(i + a, j + b, px, py)) * 2 * std::numbers::pi;
-    return std::cos(angle) * (u - a) + std::sin(angle) * (v - b);
+    const auto& [c, s] = slopes[lattice(i + a, j + b, px, py) >> 58];
+    return c * (u - a) + s * (v - b);
   };
   const auto fade = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
   return 1.5 * mix(mix(slope(0, 0), slope(1, 0), fade(u)), mix(slope(0, 1), slope(1, 1), fade(u)), fade(v));

@@ -39,6 +39,7 @@ class Grower {
   void bear_leaves(Stem& stem);
   void measure();
   double usual_length(std::size_t level) const;
+  bool is_too_large(double more_stems);
   std::size_t last_level() const { return species_.levels.size() - 1; }
 
   const Species& species_;
@@ -46,15 +47,17 @@ class Grower {
   const double height_;
   double tree_height_ = 0;  // of the tree that is growing
   Skeleton skeleton_;
-  std::vector<Bud> buds_;  // one a stem
+  std::vector<Bud> buds_;    // one a stem
+  std::uint64_t nodes_ = 0;  // of all stems
 };
 
 // Billboards on a jittered grid, each a stem of its own.
 void Grower::plant_grass(std::uint32_t tree, const Random& seed) {
   tree_height_ = height_;
   const double edge = species_.grass.block * height_ / species_.height;
-  const auto count =
-      static_cast<std::uint32_t>(std::max(1.0, std::round(species_.grass.blades * growth_.twigs)));
+  const double blades = std::max(1.0, std::round(species_.grass.blades * growth_.twigs));
+  if (is_too_large(blades)) return;
+  const auto count = static_cast<std::uint32_t>(blades);
   const auto cells = static_cast<std::uint32_t>(std::ceil(std::sqrt(count)));
   const double x = edge * (tree - (growth_.trees - 1) / 2.0);
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -165,6 +168,7 @@ bool Grower::step(Stem& stem, Bud& bud, const Level& level, std::size_t j, std::
     d = normalized(Double3{d.x, std::max(0.05, (floor - here.y) / step), d.z});
     bud.bend_axis = perpendicular(d, bud.bend_axis);
   }
+  if (++nodes_; is_too_large(0)) return false;
   stem.nodes.push_back(here + d * step);
   stem.girth.push_back(stem.girth.back());
   return true;
@@ -218,6 +222,13 @@ void Grower::find_exit(Stem& stem) const {
   }
 }
 
+// Gives up when so many more stems, of at least two nodes each, would be too many.
+bool Grower::is_too_large(double more_stems) {
+  if (static_cast<double>(nodes_) + 2 * more_stems > static_cast<double>(k_most_nodes))
+    skeleton_.too_large = true;
+  return skeleton_.too_large;
+}
+
 // Of a stem of a level, by and large: what the number of its branches is meant for.
 double Grower::usual_length(std::size_t level) const {
   double usual = tree_height_ * species_.levels[level].length;
@@ -241,10 +252,10 @@ void Grower::branch(std::uint32_t index) {
   double count = level.branches * (high - low) / std::max(1e-9, 0.985 - bare);
   if (stem.level > 0)
     count *= std::clamp(0.15 + 0.85 * stem.length / (part * usual_length(stem.level)), 0.15, 1.5);
-  if (next == last_level()) count *= growth_.twigs;
+  count *= next == last_level() ? growth_.twigs : growth_.branches;
   const auto whorl = std::max<std::int64_t>(1, std::llround(level.whorl));
-  const auto whorls =
-      std::max<std::int64_t>(count > 0 ? 1 : 0, random.round(count / static_cast<double>(whorl)));
+  const std::int64_t whorls = random.round(count / static_cast<double>(whorl));
+  if (is_too_large(count)) return;
   double turn = random.uniform(0, 360);
   for (std::int64_t i = 0; i < whorls * whorl; ++i) {
     const double jitter = random.around(0, whorl > 1 ? 0.12 : 0.4);
@@ -341,6 +352,7 @@ Skeleton Grower::run(std::uint64_t seed) {
         arm.parent_at /= static_cast<double>(parent.nodes.size() - 1);
       }
       shape(index);
+      if (skeleton_.too_large) return std::move(skeleton_);
       Stem& stem = skeleton_.stems[i];
       find_exit(stem);
       bear_leaves(stem);

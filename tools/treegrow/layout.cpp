@@ -12,6 +12,9 @@ constexpr std::uint64_t k_dither_key = 10;
 // it.
 constexpr double k_snap = 0.4;
 
+// More rings than that make more triangles than a mesh may have (treegrow.h).
+constexpr std::size_t k_most_rings = 60'000'000;
+
 class LayoutMaker {
  public:
   LayoutMaker(const Species& species, const Skeleton& skeleton, const Breaks& breaks, const Detail& detail)
@@ -22,7 +25,12 @@ class LayoutMaker {
     children_.resize(skeleton_.stems.size() + 1);
     join_at_.resize(skeleton_.stems.size());
     sort_children();
-    for (std::size_t i = 0; i < skeleton_.stems.size(); ++i) lay_stem(i);
+    for (std::size_t i = 0; i < skeleton_.stems.size(); ++i) {
+      lay_stem(i);
+      if (layout_.rings.size() <= k_most_rings) continue;
+      layout_.trunk_triangles = 2 * layout_.rings.size();  // at least; the rest need not be counted
+      return std::move(layout_);
+    }
     share_leaves(leaves);
     for (std::size_t i = 0; i < skeleton_.stems.size(); ++i) layout_.trunk_triangles += count_stem(i);
     layout_.leaf_triangles = layout_.leaves * leaf_form(breaks_).triangles;

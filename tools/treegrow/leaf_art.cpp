@@ -37,6 +37,7 @@ class Brush {
         const double y = (dx * s + dy * c) / length;
         if (y < 0 || y > 1) continue;
         const double x = dx * c - dy * s - bend * length * y * y;
+        if (std::abs(x) > 1.1 * widest) continue;  // saves most of the outlines
         const double h = half(y);
         if (h <= 0 || std::abs(x) > h) continue;
         canvas_.over(px, py, colour(x / h, y), 1);

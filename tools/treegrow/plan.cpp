@@ -16,7 +16,8 @@ constexpr double k_least_scale = 1e-4, k_most_scale = 1e5;
 // twigs, the rest into finer tubes.
 struct Scale {
   double value = 1;
-  double twigs() const { return std::pow(value, value < 1 ? 0.6 : 0.45); }
+  double twigs() const { return std::pow(value, value < 1 ? 0.5 : 0.45); }
+  double branches() const { return value < 1 ? std::pow(value, 0.25) : 1; }  // poor trees miss boughs too
   Detail detail(double segments) const {
     return {std::pow(value, 0.2), std::pow(value, 0.2) * segments, value};
   }
@@ -31,8 +32,11 @@ class Planner {
 
   Result<Plan> run() {
     attempt({1}, 1);
+    if (order_.triangles != 0) search_scale();
+    if (too_large())
+      return refuse("", order_.species.name + " has too many stems or triangles",
+                    "make branches, splits, leaves or segments fewer; --limits shows the limits");
     if (order_.triangles == 0) return std::move(plan_);
-    search_scale();
     if (plan_.layout.leaves > 0) {
       share_rest_among_leaves();
     } else {
@@ -50,14 +54,24 @@ class Planner {
 
  private:
   bool grass() const { return order_.species.grass.blades > 0; }
-  double total() const { return static_cast<double>(total_triangles(plan_.layout, order_.breaks)); }
+  double total() const {
+    return plan_.skeleton.too_large ? 1e18
+                                    : static_cast<double>(total_triangles(plan_.layout, order_.breaks));
+  }
   double wanted() const { return static_cast<double>(order_.triangles); }
+
+  bool too_large() const {
+    return plan_.skeleton.too_large || total_triangles(plan_.layout, order_.breaks) > k_most_triangles;
+  }
 
   void attempt(Scale scale, double segments) {
     scale_ = scale;
     growth_.twigs = grass() ? scale.value : scale.twigs();
+    growth_.branches = scale.branches();
     plan_.skeleton = grow(order_.species, growth_, order_.seed);
-    plan_.layout = lay_out(order_.species, plan_.skeleton, order_.breaks, scale.detail(segments));
+    plan_.layout = {};
+    if (!plan_.skeleton.too_large)
+      plan_.layout = lay_out(order_.species, plan_.skeleton, order_.breaks, scale.detail(segments));
   }
 
   // Secant steps on log triangles over log scale, kept inside the bracket that has been seen.

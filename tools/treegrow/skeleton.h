@@ -41,6 +41,7 @@ struct Skeleton {
   double height = 0;        // of the tallest stem's tip above the ground
   Double3 crown_centre;     // where shading normals lean away from
   double leaf_weight = 0;   // sum over the stems
+  bool too_large = false;   // growth was given up: what is here is a part
   double twigs = 1;         // the factor on the last level's stems that it was grown with
 };
 

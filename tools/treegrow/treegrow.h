@@ -13,6 +13,8 @@
 
 namespace copse::grow {
 
+inline constexpr std::uint64_t k_most_triangles = 100'000'000;  // indices stay far inside 32 bits
+
 struct Order {
   Species species;
   std::uint64_t seed = 0;
@@ -27,7 +29,8 @@ struct Plan {
   Layout layout;
 };
 
-// Errors (limit): fewer triangles than the species can be made of. Cost: a few times that of growing the
+// Errors: limit: a number of triangles that the species cannot be made of; refused: parameters that make more
+// than k_most_nodes nodes or k_most_triangles triangles. Cost: a few times that of growing the
 // skeleton.
 Result<Plan> make_plan(const Order& order);
 
