@@ -1,5 +1,6 @@
 #include "lib/analysis/trunk/attach.h"
 
+#include "lib/analysis/trunk/arborescence.h"
 #include "lib/analysis/trunk/taper.h"
 #include "lib/analysis/trunk/tolerances.h"
 
@@ -16,6 +17,7 @@ struct Candidate {
   double offset = 0;    // of the base from the axis, in radii
   double too_thin = 0;  // ln of how much thinner the parent is than a parent may be; 0 if it is not
   double buried = 0;    // 1 at the centre of the parent's own buried base, 0 a radius away from it
+  double noise = 0;     // of the offset: what rounding makes of a coordinate, in radii
   double gap = 0;
   double doubt = 0;  // cost of what is unusual about it
   double cost = 0;
@@ -25,12 +27,6 @@ struct Candidate {
 struct Habit {
   double offset = 0, spread = 1;
 };
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class Attacher {
  public:
@@ -51,7 +47,7 @@ class Attacher {
     std::vector<Attachment> attachments(bases_.size());
     for (std::uint32_t l = 0; l < bases_.size(); ++l) {
       attachments[l].base = natural_bases_[l];
-      if (chosen_[l] >= first_[l + 1]) continue;
+      if (chosen_[l] == k_none) continue;
       attachments[l] = {bases_[l], candidates_[chosen_[l]].ring, candidates_[chosen_[l]].gap};
     }
     return attachments;
@@ -66,27 +62,24 @@ class Attacher {
   Habit habit() const;
   void rate(const Habit& habit);
   void choose();
-  void break_cycle(std::span<const std::uint32_t> cycle);
   Candidate candidate(const Nearness& near, double radius) const;
-  bool stands_on_ground(std::uint32_t limb, double least_offset) const;
-  std::uint32_t parent(std::uint32_t limb) const {
-    return chosen_[limb] < first_[limb + 1] ? candidates_[chosen_[limb]].limb : k_none;
-  }
+  bool stands_on_ground(std::uint32_t limb, std::span<const Candidate> candidates) const;
 
   const Limbs& limbs_;
   const LimbSegments& segments_;
   const Ground& ground_;
   std::span<const std::uint32_t> natural_bases_;
   std::vector<std::uint32_t> bases_;                         // by which limbs are attached, if they are
+  double size_ = 0;                                          // of the whole trunk
   double lowest_ = std::numeric_limits<double>::infinity();  // y of the lowest base
   std::vector<double> reach_;                                // from a limb's base to its farthest ring
   std::vector<std::uint32_t> farthest_;                      // that ring
   std::vector<double> radius_, mean_radius_;                 // of a limb at its base, and of all its rings
   std::vector<std::uint32_t> other_end_;                     // of a limb with two; k_none
-  std::vector<std::size_t> first_;                           // of each limb's candidates; limbs + 1
+  std::vector<std::uint32_t> first_;                         // of each limb's candidates; limbs + 1
   std::vector<Nearness> found_;
-  std::vector<Candidate> candidates_;  // by ascending cost, limb by limb
-  std::vector<std::size_t> chosen_;    // candidate; first_[limb + 1] where none is left: a root
+  std::vector<Candidate> candidates_;  // limb by limb
+  std::vector<std::uint32_t> chosen_;  // candidate; k_none: a root
 };
 
 void Attacher::measure_limbs() {
@@ -100,6 +93,9 @@ void Attacher::measure_limbs() {
     lowest_ = std::min(lowest_, limbs_.centre[base].y);
     radius_[limbs_.limb[base]] = limbs_.diameter[base] / 2;
   }
+  DoubleBox box;
+  for (const Double3& c : limbs_.centre) box.grow(c);
+  size_ = length(box.extent());
   for (std::uint32_t r = 0; r < limbs_.rings(); ++r) {
     const std::uint32_t limb = limbs_.limb[r];
     const double d = distance(limbs_.centre[r], limbs_.centre[bases_[limb]]);
@@ -136,25 +132,32 @@ Candidate Attacher::candidate(const Nearness& near, double radius) const {
   c.limb = limbs_.limb[c.ring];
   const double wide = std::max(near.radius, radius / 2);
   c.offset = wide > 0 ? near.distance / wide : 0;
-  c.too_thin = radius > k_thicker_child * near.radius ? std::log(radius / (k_thicker_child * wide)) : 0;
+  c.too_thin =
+      std::max(0.0, std::log(radius / (k_thicker_child * std::max(near.radius, radius / k_much_thicker))));
+  c.noise = wide > 0 ? k_rounding * size_ / wide : 0;
   c.gap = near.gap();
   return c;
 }
 
-// Whether a limb that nothing holds better than `least_offset` radii from an axis comes out of the ground.
-bool Attacher::stands_on_ground(std::uint32_t limb, double least_offset) const {
+// Whether a limb comes out of the ground and not out of one of its possible parents.
+bool Attacher::stands_on_ground(std::uint32_t limb, std::span<const Candidate> candidates) const {
   const std::uint32_t base = bases_[limb];
   const double rise = limbs_.centre[farthest_[limb]].y - limbs_.centre[base].y;
-  if (ground_.is_below(base)) return rise > 0 && !ground_.is_below(farthest_[limb]);
-  return rise > reach_[limb] / 2 && least_offset > k_ground_offset &&
-         limbs_.centre[base].y - lowest_ <= k_ground_level * radius_[limb];
+  if (ground_.is_below(base)) {
+    // A branch may droop below the ground, and twigs may grow from it there.
+    const auto droops = [&](const Candidate& c) { return !ground_.is_below(natural_bases_[c.limb]); };
+    return rise > 0 && !ground_.is_below(farthest_[limb]) && std::ranges::none_of(candidates, droops);
+  }
+  const auto holds = [](const Candidate& c) { return c.offset <= k_ground_offset; };
+  return rise > reach_[limb] / 2 && limbs_.centre[base].y - lowest_ <= k_ground_level * radius_[limb] &&
+         std::ranges::none_of(candidates, holds);
 }
 
 void Attacher::find_candidates() {
   first_.assign(1, 0);
   for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
     if (bases_[limb] != k_none) find_candidates(limb);
-    first_.push_back(candidates_.size());
+    first_.push_back(static_cast<std::uint32_t>(candidates_.size()));
   }
 }
 
@@ -164,14 +167,13 @@ void Attacher::find_candidates(std::uint32_t limb) {
   const Double3& at = limbs_.centre[bases_[limb]];
   segments_.tree.near(at, k_contact_reach * radius, radius / 2, limb, k_candidates, found_);
   for (const Nearness& near : found_) candidates_.push_back(candidate(near, radius));
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t c = begin; c < candidates_.size(); ++c) least = std::min(least, candidates_[c].offset);
-  if (stands_on_ground(limb, least)) candidates_.resize(begin);
-  if (!found_.empty() || stands_on_ground(limb, least) || find_turned(limb)) return;
+  const bool on_ground = stands_on_ground(limb, std::span(candidates_).subspan(begin));
+  if (on_ground) candidates_.resize(begin);
+  if (on_ground || !found_.empty() || find_turned(limb)) return;
   Nearness near;
   if (segments_.tree.nearest(at, k_float_gap * reach_[limb], limb, near)) {
     candidates_.push_back(candidate(near, radius));
-    candidates_.back().doubt = k_cost_float;
+    candidates_.back().doubt = k_cost_doubt;
   }
 }
 
@@ -186,7 +188,7 @@ bool Attacher::find_turned(std::uint32_t limb) {
   for (const Nearness& near : found_) {
     if (mean_radius_[limb] > k_thicker_child * near.radius) continue;
     candidates_.push_back(candidate(near, radius));
-    candidates_.back().doubt = k_cost_float;
+    candidates_.back().doubt = k_cost_doubt;
   }
   if (candidates_.size() == begin) return false;
   bases_[limb] = end;
@@ -205,71 +207,57 @@ void Attacher::mark_buried() {
   }
 }
 
+// The narrowest range of offsets that holds as many possible parents as half the limbs. Each limb's true
+// parent lies where the file sets branches; wrong ones lie anywhere.
 Habit Attacher::habit() const {
   std::vector<double> offsets;
+  std::size_t held = 0;
   for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
-    if (first_[limb + 1] - first_[limb] != 1) continue;
-    const Candidate& c = candidates_[first_[limb]];
-    if (c.doubt == 0 && c.buried == 0) offsets.push_back(c.offset);
+    const std::size_t before = offsets.size();
+    for (std::uint32_t c = first_[limb]; c < first_[limb + 1]; ++c) {
+      if (candidates_[c].doubt == 0 && candidates_[c].too_thin == 0) offsets.push_back(candidates_[c].offset);
+    }
+    held += offsets.size() > before;
   }
-  if (offsets.size() < k_habit_limbs) return {0, k_habit_unknown};
-  Habit habit;
-  habit.offset = median(offsets);
-  for (double& o : offsets) o = std::abs(o - habit.offset);
-  habit.spread = std::max(k_habit_least, median(offsets));
-  return habit;
+  if (held < k_habit_limbs) return {0, k_habit_unknown};
+  std::ranges::sort(offsets);
+  const std::size_t half = held / 2;
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i + half < offsets.size(); ++i) {
+    if (offsets[i + half] - offsets[i] < offsets[begin + half] - offsets[begin]) begin = i;
+  }
+  const double low = offsets[begin], high = offsets[begin + half];
+  return {(low + high) / 2, std::max(k_habit_least, (high - low) / 2)};
 }
 
 void Attacher::rate(const Habit& habit) {
-  for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
-    const auto begin = candidates_.begin() + static_cast<std::ptrdiff_t>(first_[limb]);
-    const auto end = candidates_.begin() + static_cast<std::ptrdiff_t>(first_[limb + 1]);
-    for (auto c = begin; c != end; ++c) {
-      c->cost = std::abs(c->offset - habit.offset) / habit.spread + k_cost_too_thin * c->too_thin +
-                k_cost_buried * c->buried + c->doubt;
-    }
-    std::stable_sort(begin, end, [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  for (Candidate& c : candidates_) {
+    const double unusual = std::abs(c.offset - habit.offset) / std::max(habit.spread, c.noise);
+    c.cost = k_cost_offset * unusual / (k_cost_offset + unusual) + k_cost_too_thin * c.too_thin +
+             k_cost_buried * c.buried + c.doubt;
   }
 }
 
-// The limb of a cycle that loses least takes its next candidate; when it has none left it is a root.
-void Attacher::break_cycle(std::span<const std::uint32_t> cycle) {
-  std::uint32_t best = k_none;
-  double best_loss = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t limb : cycle) {
-    const std::size_t next = chosen_[limb] + 1;
-    const double cost = candidates_[chosen_[limb]].cost;
-    const double loss = std::min(next < first_[limb + 1] ? candidates_[next].cost : k_cost_root,
-                                 std::max(k_cost_root, cost)) -
-                        cost;
-    const bool better = best == k_none || loss < best_loss ||
-                        (loss == best_loss && limbs_.diameter[bases_[limb]] > limbs_.diameter[bases_[best]]);
-    if (better) best = limb, best_loss = loss;
-  }
-  ++chosen_[best];
-}
-
+// Where nothing else decides, the lowest and thickest limb is the root.
 void Attacher::choose() {
-  chosen_.assign(first_.begin(), first_.end() - 1);
-  enum : std::uint8_t { unseen, on_path, done };
-  std::vector<std::uint8_t> state(bases_.size(), unseen);
-  std::vector<std::uint32_t> path;
-  for (std::uint32_t start = 0; start < bases_.size(); ++start) {
-    for (std::uint32_t limb = start; state[start] != done;) {
-      path.clear();
-      while (limb != k_none && state[limb] == unseen) {
-        state[limb] = on_path;
-        path.push_back(limb);
-        limb = parent(limb);
-      }
-      const bool is_cycle = limb != k_none && state[limb] == on_path;
-      if (is_cycle)
-        break_cycle(
-            std::span(path).subspan(static_cast<std::size_t>(std::ranges::find(path, limb) - path.begin())));
-      for (const std::uint32_t l : path) state[l] = is_cycle ? unseen : done;
-      limb = start;
-    }
+  double highest = lowest_, thickest = 0;
+  for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
+    if (bases_[limb] == k_none) continue;
+    highest = std::max(highest, limbs_.centre[natural_bases_[limb]].y);
+    thickest = std::max(thickest, radius_[limb]);
   }
+  std::vector<double> root_cost(bases_.size(), k_cost_root);
+  for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
+    if (bases_[limb] == k_none) continue;
+    if (highest > lowest_) {
+      root_cost[limb] += (limbs_.centre[natural_bases_[limb]].y - lowest_) / (highest - lowest_);
+    }
+    if (thickest > 0) root_cost[limb] += 1 - radius_[limb] / thickest;
+  }
+  std::vector<ParentArc> arcs;
+  arcs.reserve(candidates_.size());
+  for (const Candidate& c : candidates_) arcs.push_back({c.limb, c.cost});
+  chosen_ = cheapest_arborescence(first_, arcs, root_cost);
 }
 
 }  // namespace

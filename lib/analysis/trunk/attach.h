@@ -22,11 +22,12 @@ struct Attachment {
 // a limb and no cycles.
 //
 // A generator or an artist sets all branches in the same way: on the parent's axis, or on its skin. So the
-// limbs with one possible parent tell how far from the axis, in radii of the parent, the bases of this file
-// lie and how much that varies; and where twigs cross and several parents are possible, the one that fits
-// this best is taken (with a penalty for parents that are thinner than the child, and for growing from the
-// buried start of a sibling). What touches nothing is a root, unless it floats a little above another limb. A
-// limb whose base is below the ground and that comes out of it is a root. O(n log n).
+// offsets from the axis, in radii of the parent, at which most bases of this file lie tell its habit, and
+// where twigs cross and several parents are possible, the one that fits it best is taken. Parents that are
+// thinner than the child cost more, as do the buried start of a sibling and a gap; to be a root costs
+// something as well, most for a high and thin limb. All limbs together are attached in the cheapest way that
+// has no cycles (arborescence.h). A limb whose base is below the ground and that comes out of it is a root.
+// O(n log n).
 std::vector<Attachment> attach(const Limbs& limbs, const LimbSegments& segments, const Ground& ground,
                                std::span<const std::uint32_t> bases);
 

@@ -32,11 +32,10 @@ inline constexpr std::size_t k_ring_attempts = 16;
 // other.
 inline constexpr double k_lid_smooth_cosine = 0.8660254037844387;
 // Axis length over mean diameter below which concentric rings are a flat sheet and no tube.
-inline constexpr double k_flat_slenderness = 1.0 / 16;
-// Radii between a ring's centre and the single vertex beyond it, up to which that vertex is the centre of a
-// cap (a dome is as high as the radius times tan 22.5 degrees or so) and not the point that a twig runs out
-// into, which is as long as a segment.
-inline constexpr double k_lid_height = 0.5;
+inline constexpr double k_flat_slenderness = 1e-3;
+// Radii between a ring's centre and the single vertex beyond it, up to which that vertex is the centre of a cap. Caps
+// are flat, or pulled up a little; the point that a twig runs out into is as long as a segment.
+inline constexpr double k_lid_height = 0.125;
 
 // --- joining and attaching limbs
 // -----------------------------------------------------------------------------------
@@ -69,12 +68,19 @@ inline constexpr double k_thicker_child = 1.25;
 // that is assumed without, and the least that is believed (rounding of a thin twig's centre).
 inline constexpr std::size_t k_habit_limbs = 5;
 inline constexpr double k_habit_unknown = 0.25;
-inline constexpr double k_habit_least = 1e-3;
-// Costs, in spreads: a parent thinner by a factor e than it may be; a parent at its own buried base; a gap; a
-// root where something would hold it.
-inline constexpr double k_cost_too_thin = 3;
+inline constexpr double k_habit_least = 1e-4;
+// Share of the trunk's size by which rounding in the file may move a ring's centre or a point of an axis.
+inline constexpr double k_rounding = 1e-6;
+// Radius of a child over its parent's at which the parent's thickness stops to matter: it is not the parent.
+inline constexpr double k_much_thicker = 16;
+// Costs, in spreads: the most that an unusual offset can cost; a parent thinner by a factor e than it may be;
+// a parent at its own buried base; a gap, or an end that is not the base by its taper; a root where something
+// would hold it. So a root is better than a parent that is thinner than half the child, whatever else speaks
+// for it.
+inline constexpr double k_cost_offset = 20;
+inline constexpr double k_cost_too_thin = 60;
 inline constexpr double k_cost_buried = 2;
-inline constexpr double k_cost_float = 20;
+inline constexpr double k_cost_doubt = 9;
 inline constexpr double k_cost_root = 30;
 
 }  // namespace copse
