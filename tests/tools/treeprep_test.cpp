@@ -186,13 +186,16 @@ TEST_F(Treeprep, KeepsTheShapeOfATreeFarFromTheOrigin) {
   }
 }
 
-TEST_F(Treeprep, PreparesTinyAndHugeTrees) {
-  for (const char* scale : {"1e-30", "1e30"}) {
+TEST_F(Treeprep, PreparesTinyAndHugeTreesAndRefusesWhatFloat32CannotHold) {
+  for (const char* scale : {"1e-30", "1e-9", "1e9", "1e17"}) {
     const Outcome o = prepare(input(little_tree_obj()), {"--scale", scale});
     ASSERT_EQ(o.status, 0) << o.err;
     EXPECT_EQ(tree().radius_count(), 5u) << scale;
+    std::filesystem::remove(folder_.file("out.stree"));
   }
-  expect_refused(prepare(input(little_tree_obj()), {"--scale", "1e308"}, "x.stree"), 1, "scale");
+  for (const char* scale : {"1e30", "1e308"}) {
+    expect_refused(prepare(input(little_tree_obj()), {"--scale", scale}), 1, "--scale");
+  }
 }
 
 TEST_F(Treeprep, PreparesAVineOfAHundredThousandSegments) {
@@ -224,7 +227,7 @@ TEST_F(Treeprep, ReportsWhatItFoundAndHowWrongItIs) {
   const std::string json = read_text(folder_.file("r.json"));
   for (const char* part :
        {"copse.report/1", "\"treeprep\"", "\"read\"", "\"classify\"", "\"skeleton\"", "\"leaf groups\"",
-        "cylinder-surface of local radius", "trunk triangles unexplained", "\"found\"", "\"components\""}) {
+        "cylinder-surface of local radius", "trunk triangles unexplained", "what was found", "trunk and leaves, and why"}) {
     EXPECT_NE(json.find(part), std::string::npos) << part;
   }
   const std::string html = read_text(folder_.file("r.html"));

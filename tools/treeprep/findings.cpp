@@ -13,7 +13,7 @@ std::string count(std::uint64_t n) {
 }
 
 Table counts_table(const Findings& f) {
-  Table table{"found", {"what", "count"}, {}};
+  Table table{"what was found", {"what", "count"}, {}};
   const auto add = [&](const char* what, std::uint64_t n) { table.rows.push_back({what, count(n)}); };
   std::uint64_t roots = 0, joints = 0, branches = 0;
   for (const RadiusNode& r : f.hierarchy.radii) {
@@ -47,7 +47,7 @@ Table skeleton_table(const Findings& f) {
       ++triangles[static_cast<int>(f.hierarchy.radii[s].source)];
     }
   }
-  Table table{"skeleton", {"radii from", "radii", "trunk triangles explained"}, {}};
+  Table table{"where the skeleton comes from", {"radii from", "radii", "trunk triangles explained"}, {}};
   for (int i = 0; i < 3; ++i) {
     if (radii[i] > 0) table.rows.push_back({k_names[i], count(radii[i]), count(triangles[i])});
   }
@@ -64,7 +64,7 @@ Table components_table(const Classification& classes) {
     Sum& sum = sums[{c.kind, c.reason}];
     ++sum.components, sum.triangles += c.triangles;
   }
-  Table table{"components", {"class", "why", "components", "triangles"}, {}};
+  Table table{"trunk and leaves, and why", {"class", "why", "components", "triangles"}, {}};
   for (const auto& [key, sum] : sums) {
     table.rows.push_back({key.first == PartClass::trunk ? "trunk" : "leaf", std::string(key.second),
                           count(sum.components), count(sum.triangles)});
@@ -82,7 +82,10 @@ void report_findings(const Findings& findings, Report& report) {
   report.tables.push_back(counts_table(findings));
   if (!findings.hierarchy.radii.empty()) report.tables.push_back(skeleton_table(findings));
   report.tables.push_back(components_table(findings.classes));
-  for (const std::string& note : findings.hierarchy.notes) report.warnings.push_back(note);
+  if (findings.hierarchy.notes.empty()) return;
+  Table notes{"about the skeleton", {"note"}, {}};
+  for (const std::string& note : findings.hierarchy.notes) notes.rows.push_back({note});
+  report.tables.push_back(std::move(notes));
 }
 
 void report_errors(const CylinderError& error, Report& report) {

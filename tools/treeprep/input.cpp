@@ -2,6 +2,7 @@
 
 #include "lib/formats/import/import.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -109,9 +110,13 @@ Result<void> check_size(const Mesh& mesh, const std::string& name) {
   if (mesh.triangles.empty()) {
     return refuse(name, "there is no triangle in it", "export the mesh with its faces");
   }
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    if (is_finite(mesh.positions[i])) continue;
-    return refuse(name, fmt::format("vertex {} is not finite after --scale", i), "use a smaller --scale");
+  const Double3 e = bounds(mesh).extent();
+  const double extent = std::max({e.x, e.y, e.z});
+  if (!(extent <= k_largest_extent)) {
+    return refuse(
+        name,
+        fmt::format("the tree is {:.3g} m large; at most {:.0g} m can be stored", extent, k_largest_extent),
+        "use a smaller --scale");
   }
   return {};
 }

@@ -16,6 +16,9 @@ struct Input {
   std::string format;  // "obj", "glb", ...
 };
 
+// The largest extent of a tree, in metres: beyond it the area of a triangle may not fit a float32.
+inline constexpr double k_largest_extent = 1e18;
+
 // Texture references come out relative to the folder of `options.output`. What was dropped or mended is
 // warned about; with --strict it is refused.
 Result<Input> read_input(const Options& options, Context& context);

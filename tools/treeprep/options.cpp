@@ -1,6 +1,7 @@
 #include "tools/treeprep/options.h"
 
 #include "lib/formats/import/limits.h"
+#include "tools/treeprep/input.h"
 #include "tools/treeprep/parts.h"
 #include "tools/treeprep/run.h"
 
@@ -13,7 +14,7 @@ namespace copse::treeprep {
 namespace {
 
 std::vector<Limit> limits() {
-  std::vector<Limit> all;
+  std::vector<Limit> all{{"extent of a tree", static_cast<std::uint64_t>(k_largest_extent), "m"}};
   for (const ImportLimit& l : import_limits()) all.push_back({l.name, l.value, l.unit});
   return all;
 }
