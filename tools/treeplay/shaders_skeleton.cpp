@@ -5,6 +5,9 @@ namespace copse::treeplay::shaders {
 // A line is a flat quad that faces the eye; the fragment shader cuts it to a capsule whose radius changes
 // along the way and shades it like a rod.
 const std::string_view k_line_vertex = R"(
+vec3 to_linear(vec3 s) {
+  return mix(s / 12.92, pow((s + 0.055) / 1.055, vec3(2.4)), vec3(greaterThan(s, vec3(0.04045))));
+}
 layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;
 layout(location = 2) in vec2 radii;
@@ -33,7 +36,7 @@ void main() {
   v_length = dot(axis, along);
   v_across = across;
   v_towards = towards;
-  v_tint = tint;
+  v_tint = vec4(to_linear(tint.rgb), tint.a);
   float widest = max(v_radii.x, v_radii.y) + fragment_angle * max(length(a), length(b));
   bool end = (gl_VertexID & 1) != 0;
   float side = (gl_VertexID & 2) != 0 ? 1.0 : -1.0;
@@ -51,10 +54,24 @@ flat in vec2 v_radii;
 flat in vec3 v_across, v_towards;
 flat in vec4 v_tint;
 out vec4 colour;
+
+// The distance to the outline of a ball that rolls from one end to the other while its radius changes: two arcs
+// and their common tangent. When one ball swallows the other, the larger one.
+float outline(vec2 p, float length_, vec2 r) {
+  float taper = length_ > 0.0 ? (r.x - r.y) / length_ : 2.0;
+  if (abs(taper) >= 1.0) return r.x > r.y ? length(p) - r.x : distance(p, vec2(length_, 0.0)) - r.y;
+  float slope = sqrt(1.0 - taper * taper);
+  vec2 q = vec2(p.x, abs(p.y));
+  float along = slope * q.x - taper * q.y;
+  if (along < 0.0) return length(q) - r.x;
+  if (along > slope * length_) return distance(q, vec2(length_, 0.0)) - r.y;
+  return taper * q.x + slope * q.y - r.x;
+}
+
 void main() {
   float s = v_length > 0.0 ? clamp(v_at.x / v_length, 0.0, 1.0) : 0.0;
   float r = mix(v_radii.x, v_radii.y, s);
-  float d = distance(v_at, vec2(s * v_length, 0.0)) - r;
+  float d = outline(v_at, v_length, v_radii);
   float covered = clamp(0.5 - d / max(fwidth(d), 1e-30), 0.0, 1.0);
   if (covered <= 0.0) discard;
   float out_there = clamp(v_at.y / r, -1.0, 1.0);
@@ -65,6 +82,9 @@ void main() {
 )";
 
 const std::string_view k_disc_vertex = R"(
+vec3 to_linear(vec3 s) {
+  return mix(s / 12.92, pow((s + 0.055) / 1.055, vec3(2.4)), vec3(greaterThan(s, vec3(0.04045))));
+}
 layout(location = 0) in vec3 centre;
 layout(location = 1) in float radius;
 layout(location = 2) in vec4 tint;
@@ -81,7 +101,7 @@ void main() {
   float grown = 1.0 + fragment_angle * length(c) / max(r, 1e-30);
   v_at = (vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0) * grown;
   v_towards = -normalize(c);
-  v_tint = tint;
+  v_tint = vec4(to_linear(tint.rgb), tint.a);
   // In front of the lines that end here.
   vec3 p = c * (1.0 - r / max(length(c), r)) + (right * v_at.x + up * v_at.y) * r * (1.0 - r / max(length(c), r));
   gl_Position = clip * vec4(p, 1.0);
@@ -107,6 +127,9 @@ void main() {
 
 // A sphere as glass: clear in the middle, coloured at the rim. Its outline is exact in perspective.
 const std::string_view k_sphere_vertex = R"(
+vec3 to_linear(vec3 s) {
+  return mix(s / 12.92, pow((s + 0.055) / 1.055, vec3(2.4)), vec3(greaterThan(s, vec3(0.04045))));
+}
 layout(location = 0) in vec3 centre;
 layout(location = 1) in float radius;
 layout(location = 2) in vec4 tint;
@@ -120,7 +143,7 @@ flat out vec4 v_tint;
 void main() {
   v_centre = centre + offset;
   v_radius = radius;
-  v_tint = tint;
+  v_tint = vec4(to_linear(tint.rgb), tint.a);
   float away = length(v_centre);
   vec3 towards = -v_centre / max(away, 1e-30);
   vec3 side = normalize(cross(abs(towards.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0), towards));
@@ -150,7 +173,7 @@ void main() {
   vec3 n = (ray * (along - inside * v_radius) - v_centre) / v_radius;
   float rim = pow(1.0 - inside, 2.0);
   float light = 0.85 + 0.25 * dot(n, sun_direction);
-  colour = vec4(v_tint.rgb * light, covered * mix(0.10, 0.75, rim));
+  colour = vec4(v_tint.rgb * light, covered * mix(0.05, 0.7, rim));
 }
 )";
 

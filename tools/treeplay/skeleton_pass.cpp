@@ -85,11 +85,13 @@ Result<void> SkeletonPass::upload(const Skeleton& skeleton) {
   }
   std::vector<Disc> discs;
   for (const SkeletonPoint& p : skeleton.points) {
-    discs.push_back(
-        {p.centre, 0.62f * p.diameter, p.root ? Colour{30, 30, 30, 255} : colour_of_level(p.level)});
+    // A dark dot on the line, so that both can be seen.
+    Colour tint = colour_of_level(p.level);
+    for (std::size_t c = 0; c < 3; ++c) tint[c] = p.root ? 0 : static_cast<std::uint8_t>(tint[c] * 3 / 5);
+    discs.push_back({p.centre, 0.3f * p.diameter, tint});
   }
   for (const LeafPoint& p : skeleton.leaves) {
-    discs.push_back({p.centre, 0.2f * p.diameter, colour_of_group(p.group)});
+    discs.push_back({p.centre, 0.13f * p.diameter, colour_of_group(p.group)});
   }
   for (std::uint32_t g = 0; g < skeleton.groups.size(); ++g) {
     spheres_.push_back({skeleton.groups[g].centre, skeleton.groups[g].radius, colour_of_group(g)});
