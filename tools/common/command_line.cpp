@@ -205,12 +205,12 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest_name(const std::string& given, const std::vector<std::string>& names) {
-  if (given.size() > 64) return {};  // no option is that long
+  if (given.size() <= 3 || given.size() > 64) return {};  // nothing to go by; no option is that long
   std::string best;
   std::size_t least = std::max<std::size_t>(2, given.size() / 3) + 1;
   for (const std::string& name : names) {
     // The beginning of a long name is as good as a small slip.
-    const bool begins = given.size() > 3 && name.starts_with(given);
+    const bool begins = name.starts_with(given);
     const std::size_t edits = begins ? 1 : edit_distance(given, name);
     if (edits < least && edits < given.size()) {
       least = edits;

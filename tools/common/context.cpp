@@ -46,6 +46,19 @@ bool may_be_rewritten(const fs::path& path) {
   return std::find(k_containers.begin(), k_containers.end(), path.extension().string()) != k_containers.end();
 }
 
+bool same_file(const fs::path& a, const fs::path& b) {
+  if (a.empty() || b.empty() || is_stdout(a) || is_stdout(b)) return false;
+  std::error_code error;
+  const fs::path real_a = fs::weakly_canonical(fs::absolute(a), error),
+                 real_b = fs::weakly_canonical(fs::absolute(b), error);
+  return !error && real_a == real_b && (!fs::exists(a, error) || fs::is_regular_file(a, error));
+}
+
+std::unexpected<Error> named_twice(const fs::path& path) {
+  return fail(Fault::usage, path.string(), "two outputs of this run have this name",
+              "give each a name of its own");
+}
+
 }  // namespace
 
 struct Stage::Impl {
@@ -120,11 +133,11 @@ void ToolContext::read(const fs::path& path, bool is_input) {
   report_.inputs.push_back(std::move(record));
 }
 
-Result<void> ToolContext::refuse_overwriting(const fs::path& path) const {
-  if (is_stdout(path)) return {};
+Result<void> ToolContext::check_inputs(const fs::path& path) const {
+  if (is_stdout(path) || may_be_rewritten(path)) return {};
   std::error_code error;
   for (const fs::path& input : read_) {
-    if (!may_be_rewritten(path) && fs::is_regular_file(path, error) && fs::equivalent(path, input, error)) {
+    if (fs::is_regular_file(path, error) && fs::equivalent(path, input, error)) {
       return fail(Fault::usage, path.string(), "is an input and an output of this run",
                   "give the output another name");
     }
@@ -132,17 +145,37 @@ Result<void> ToolContext::refuse_overwriting(const fs::path& path) const {
   return {};
 }
 
+// What a tool may not write: its inputs, and what its report, page and dependency file are called.
+Result<void> ToolContext::check_name(const fs::path& path) const {
+  for (const fs::path* own : {&options_.report, &options_.html, &options_.depfile}) {
+    if (same_file(path, *own)) return named_twice(path);
+  }
+  return check_inputs(path);
+}
+
+Result<void> ToolContext::check_own_outputs() const {
+  const std::array<const fs::path*, 3> own{&options_.report, &options_.html, &options_.depfile};
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (own[i]->empty()) continue;
+    if (auto possible = Outputs::check(*own[i]); !possible) return possible;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (same_file(*own[i], *own[j])) return named_twice(*own[i]);
+    }
+  }
+  return {};
+}
+
 Result<void> ToolContext::check_output(const fs::path& path) {
-  if (auto free = refuse_overwriting(path); !free) return free;
+  if (auto free = check_name(path); !free) return free;
   return Outputs::check(path);
 }
 
 Result<void> ToolContext::write(const fs::path& path, std::string_view bytes) {
-  if (auto free = refuse_overwriting(path); !free) return free;
+  if (auto free = check_name(path); !free) return free;
   return outputs_.add(path, bytes);
 }
 
-Result<void> ToolContext::write_depfile() {
+Result<void> ToolContext::add_depfile() {
   std::vector<fs::path> targets;
   for (const FileRecord& output : report_.outputs) targets.emplace_back(output.path);
   // A run that only prints: what make waits for is its report or page, or this file itself.
@@ -151,7 +184,7 @@ Result<void> ToolContext::write_depfile() {
   }
   const auto text = make_depfile(targets, read_);
   if (!text) return std::unexpected(text.error());
-  return write(options_.depfile, *text);
+  return outputs_.add(options_.depfile, *text);
 }
 
 Result<void> ToolContext::finish() {
@@ -159,15 +192,14 @@ Result<void> ToolContext::finish() {
   report_.outputs = outputs_.records();
   report_.seconds = seconds_since(start_);
   report_.peak_bytes = peak_bytes();
-  if (!options_.report.empty()) {
-    if (auto done = write(options_.report, to_json(report_) + "\n"); !done) return done;
+  for (const fs::path* own : {&options_.report, &options_.html, &options_.depfile}) {
+    if (auto free = check_inputs(*own); !free) return free;
   }
-  if (!options_.html.empty()) {
-    if (auto done = write(options_.html, to_html(report_)); !done) return done;
-  }
-  if (!options_.depfile.empty()) {
-    if (auto done = write_depfile(); !done) return done;
-  }
+  Result<void> done;
+  if (!options_.report.empty()) done = outputs_.add(options_.report, to_json(report_));
+  if (done && !options_.html.empty()) done = outputs_.add(options_.html, to_html(report_));
+  if (done && !options_.depfile.empty()) done = add_depfile();
+  if (!done) return done;
   return outputs_.commit();
 }
 

@@ -27,13 +27,16 @@ class ToolContext : public Context {
   Console& console() { return console_; }
   Outputs& outputs() { return outputs_; }
 
+  // Whether report, page and dependency file could be written.
+  Result<void> check_own_outputs() const;
   // Report, page and dependency file as asked for, then everything becomes visible.
   Result<void> finish();
 
  private:
   bool reports() const { return !options_.report.empty() || !options_.html.empty(); }
-  Result<void> refuse_overwriting(const std::filesystem::path& path) const;
-  Result<void> write_depfile();
+  Result<void> check_inputs(const std::filesystem::path& path) const;
+  Result<void> check_name(const std::filesystem::path& path) const;
+  Result<void> add_depfile();
 
   CommonOptions options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -65,11 +65,7 @@ Result<void> run_in_context(const ToolInfo& info, CommandLine&& line, const Run&
   if (wants_bar(context.options())) context.console().enable_bar();
   context.report().options = std::move(line.options);
   for (const std::filesystem::path& file : line.files) context.read(file, false);
-  const CommonOptions& options = context.options();
-  for (const std::filesystem::path* path : {&options.report, &options.html, &options.depfile}) {
-    if (path->empty()) continue;
-    if (auto writable = context.check_output(*path); !writable) return writable;
-  }
+  if (auto writable = context.check_own_outputs(); !writable) return writable;
   if (auto done = run(context); !done) return done;
   return context.finish();
 }
