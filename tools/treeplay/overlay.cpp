@@ -11,6 +11,7 @@ Overlay::Overlay(GLFWwindow* window) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
   ImGui::StyleColorsDark();
+  ImGui::GetStyle().Colors[ImGuiCol_TextDisabled] = {0.78f, 0.8f, 0.82f, 1};
   ImGui::GetStyle().WindowRounding = 6;
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
@@ -35,7 +36,7 @@ void facts_panel(const Overlay::Facts& facts) {
   const Scene& scene = *facts.scene;
   ImGui::TextUnformatted(scene.name.c_str());
   const double ms = facts.frame_seconds * 1e3;
-  ImGui::Text("%.1f ms a frame (%.0f a second)", ms, ms > 0 ? 1e3 / ms : 0);
+  ImGui::Text("last frame: %.1f ms", ms);
   ImGui::Text("%llu triangles, %zu vertices", static_cast<unsigned long long>(scene.triangles()),
               scene.geometry.vertices.size());
   if (scene.skeleton) {
@@ -77,11 +78,14 @@ void help_panel() {
 
 void Overlay::draw(const Facts& facts) {
   ImGui_ImplOpenGL3_NewFrame();
-  ImGui_ImplGlfw_NewFrame();
-  ImGui::NewFrame();
-  facts_panel(facts);
-  if (facts.help) help_panel();
-  ImGui::Render();
+  // Twice: a panel learns its size by being drawn, and the next picture may be long in coming.
+  for (int pass = 0; pass < 2; ++pass) {
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    facts_panel(facts);
+    if (facts.help) help_panel();
+    ImGui::Render();
+  }
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 

@@ -18,7 +18,7 @@ class Overlay {
     const Scene* scene = nullptr;
     const FramePlan* plan = nullptr;
     const char* renderer = "";
-    double frame_seconds = 0;  // mean of the last frames
+    double frame_seconds = 0;  // of this frame, without the overlay
     const char* message = "";  // of the last action
     bool help = false;
   };

@@ -111,7 +111,6 @@ class Viewer {
   bool playing_, stale_ = true, help_ = false, screenshot_wanted_ = false, fit_wanted_ = false;
   std::uint64_t exit_after_;
   double mouse_x_ = 0, mouse_y_ = 0;
-  double mean_seconds_ = 0;  // of a frame, over about the last ten
   std::string renderer_name_, message_;
 };
 
@@ -214,13 +213,11 @@ Result<void> Viewer::draw(Overlay& overlay, std::uint64_t frame, Statistics& sta
   glFinish();
   const auto finished = Clock::now();
   statistics.add(plan, seconds(start, decided), seconds(decided, finished));
-  const double last = seconds(start, finished);
-  mean_seconds_ = mean_seconds_ > 0 ? 0.9 * mean_seconds_ + 0.1 * last : last;
   if (screenshot_wanted_) screenshot(width, height, plan);
   screenshot_wanted_ = false;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, width, height);
-  overlay.draw({&scene_, &plan, renderer_name_.c_str(), mean_seconds_, message_.c_str(), help_});
+  overlay.draw({&scene_, &plan, renderer_name_.c_str(), seconds(start, finished), message_.c_str(), help_});
   glfwSwapBuffers(window_);
   return {};
 }
