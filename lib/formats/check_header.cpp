@@ -71,8 +71,8 @@ void check_header(const Check& check) {
     check.add("HEAD", Finding::k_no_element, kind, detail);
   };
   if (!is_finite(h.origin)) add("the origin is not finite");
-  const bool boxes = check_box(check, "whole", h.bounds) & check_box(check, "trunk", h.trunk_bounds);
-  if (boxes && !h.trunk_bounds.empty() && !contains(h.bounds, h.trunk_bounds)) {
+  const bool whole = check_box(check, "whole", h.bounds), trunk = check_box(check, "trunk", h.trunk_bounds);
+  if (whole && trunk && !h.trunk_bounds.empty() && !contains(h.bounds, h.trunk_bounds)) {
     add("the trunk's box is not inside the tree's", text(h.trunk_bounds));
   }
   if (!is_finite(h.area_density_centre)) add("the area-density centre is not finite");
