@@ -88,27 +88,30 @@ class Row {
   std::vector<Sums> prefix_;
 };
 
+constexpr double k_least_lines = 8;  // a footprint
+
 struct Scanline {
   std::uint32_t footprint;
   int row;
   double from, to;
 };
 
-// The scanlines of a footprint, in texels, y downwards from the image's top.
+// The scanlines of a footprint, in texels, y downwards from the image's top: one a row of texels, but at most
+// `most`, which then start at `phase` (0 to 1) of a step, so that many footprints together still meet every
+// row.
 template <class Emit>
-void scan(const Footprint& footprint, int width, int height, Emit&& emit) {
-  constexpr double k_least_lines = 8;
+void scan(const Footprint& footprint, int width, int height, double most, double phase, Emit&& emit) {
   std::array<Double3, 3> p;
   for (int i = 0; i < 3; ++i) {
     p[i] = {footprint.corners[i].x * double(width), (1 - double{footprint.corners[i].y}) * height, 0};
   }
   std::sort(p.begin(), p.end(), [](const Double3& a, const Double3& b) { return a.y < b.y; });
   const double tall = p[2].y - p[0].y;
-  const double lines = std::max(k_least_lines, std::ceil(tall));
+  const double lines = std::clamp(std::ceil(tall), k_least_lines, most);
   const auto x_at = [](const Double3& a, const Double3& b, double y) {
     return b.y > a.y ? a.x + (b.x - a.x) * std::clamp((y - a.y) / (b.y - a.y), 0.0, 1.0) : a.x;
   };
-  for (double line = 0.5; line < lines; line += 1) {
+  for (double line = lines < most ? 0.5 : phase; line < lines; line += 1) {
     const double y = p[0].y + tall * line / lines;
     const double one = x_at(p[0], p[2], y), other = y < p[1].y ? x_at(p[0], p[1], y) : x_at(p[1], p[2], y);
     const double wrapped = y - std::floor(y / height) * height;
@@ -125,12 +128,17 @@ class Sampler {
 
   Sums run() {
     constexpr std::size_t k_batch = std::size_t{1} << 20;  // scanlines: 32 MB
+    const double most =
+        std::max(k_least_lines, std::floor(k_scanlines / static_cast<double>(footprints_.size())));
     for (std::uint32_t f = 0; f < footprints_.size(); ++f) {
-      scan(footprints_[f], texels_.width(), texels_.height(), [&](int row, double from, double to) {
-        // Without a width there is still a texel under it.
-        if (!(to - from > 1e-9 * texels_.width())) from = std::floor(from), to = from + 1;
-        lines_.push_back({f, row, from, to});
-      });
+      const double turns = f * 0.6180339887498949;  // golden ratio: evenly spread phases
+      const double phase = turns - std::floor(turns);
+      scan(footprints_[f], texels_.width(), texels_.height(), most, phase,
+           [&](int row, double from, double to) {
+             // Without a width there is still a texel under it.
+             if (!(to - from > 1e-9 * texels_.width())) from = std::floor(from), to = from + 1;
+             lines_.push_back({f, row, from, to});
+           });
       if (lines_.size() >= k_batch) flush();
     }
     flush();

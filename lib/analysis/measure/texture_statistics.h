@@ -42,9 +42,13 @@ struct TextureStatistics {
 // small part of it.
 inline constexpr double k_footprint_tiles = 16;
 
+// Enough that a mean over a material is good to about 1e-3, whatever the size of the image.
+inline constexpr double k_scanlines = 1 << 19;
+
 // One a material. Textures repeat in both directions. The alpha test compares texture alpha * Material::alpha
-// with Material::alpha_cutoff. Exact along each scanline; at least 8 scanlines a footprint, at least one a
-// row of texels. Linear in triangles, texels and in the heights of different footprints in texels.
+// with Material::alpha_cutoff. Exact along each scanline; a footprint has at least 8 of them and at most one
+// a row of texels, and all footprints of a material together k_scanlines (or 8 each, when they are very
+// many): beyond that the rows between are left out, evenly. Linear in triangles, texels and scanlines.
 std::vector<TextureStatistics> texture_statistics(const Mesh& mesh, const ImageSource& images);
 
 // Puts the statistics into the materials, where they were sampled.
