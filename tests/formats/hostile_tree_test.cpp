@@ -39,7 +39,7 @@ TEST(HostileTree, EveryFlippedByteIsRefused) {
       const Bytes sound = small_file(kind, encoding, 1, {"LCEN"});
       ASSERT_EQ(refusal(sound), "");
       for (std::size_t i = 0; i < sound.size(); ++i) {
-        for (const int flip : {0x01, 0x80, 0xff}) {
+        for (const int flip : {1 << (i % 8), 0xff}) {
           Bytes bytes = sound;
           bytes[i] ^= static_cast<std::uint8_t>(flip);
           ASSERT_THAT(refusal(bytes), HasSubstr("offset")) << "byte " << i << " ^ " << flip;
