@@ -14,6 +14,7 @@
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -103,8 +104,8 @@ std::vector<ClosedMesh> separate(const Soup& soup) {
   return meshes;
 }
 
-// Fills the borders, turns the mesh inside in, and thins it out to what the flow can carry. False when that
-// does not give a closed mesh with something inside.
+// Fills the borders, turns the mesh inside in, thins it out to what the flow can carry, and cuts long edges,
+// as skeleton points come from vertices. False when that does not give a closed mesh with something inside.
 bool close(ClosedMesh& mesh) {
   std::vector<ClosedMesh::Halfedge_index> borders;
   PMP::extract_boundary_cycles(mesh, std::back_inserter(borders));
@@ -117,24 +118,24 @@ bool close(ClosedMesh& mesh) {
     CGAL::Surface_mesh_simplification::edge_collapse(
         mesh, CGAL::Surface_mesh_simplification::Count_stop_predicate<ClosedMesh>(k_flow_triangles * 3 / 2));
   }
+  if (mesh.number_of_faces() < k_flow_triangles_at_least) {  // edges of an even mesh of that many triangles
+    const double longest =
+        std::sqrt(PMP::area(mesh) / static_cast<double>(k_flow_triangles_at_least) * 4 / std::sqrt(3.0));
+    PMP::split_long_edges(mesh.edges(), longest, mesh);
+  }
   mesh.collect_garbage();
   return true;
 }
 
-void add_skeleton(const Flow::Skeleton& flowed, const ClosedMesh& mesh, const Frame& frame, const Surface& s,
+void add_skeleton(const Flow::Skeleton& flowed, const ClosedMesh& mesh, const Frame& frame,
                   CurveSkeleton& k) {
   const auto id = mesh.property_map<ClosedMesh::Vertex_index, std::uint32_t>("v:id").first;
   const auto base = static_cast<std::uint32_t>(k.points.size());
   for (const auto n : CGAL::make_range(vertices(flowed))) {
     k.points.push_back(frame.from(flowed[n].point));
-    double sum = 0, count = 0;
     for (const auto v : flowed[n].vertices) {
-      if (id[v] == k_none) continue;
-      k.node_of[id[v]] = base + static_cast<std::uint32_t>(n);
-      sum += distance(s.positions[id[v]], k.points.back());
-      ++count;
+      if (id[v] != k_none) k.node_of[id[v]] = base + static_cast<std::uint32_t>(n);
     }
-    k.radii.push_back(count > 0 ? sum / count : 0);
   }
   for (const auto e : CGAL::make_range(edges(flowed))) {
     const auto a = base + static_cast<std::uint32_t>(source(e, flowed));
@@ -178,6 +179,37 @@ void connect(const Surface& s, CurveSkeleton& k) {
   k.triangles = make_lists(held, k.points.size());
 }
 
+double distance_to_triangle(const Surface& s, std::uint32_t t, const Point& p) {
+  const auto corner = [&](std::size_t i) {
+    const Double3& c = s.positions[s.triangles[t][i]];
+    return Point(c.x, c.y, c.z);
+  };
+  return std::sqrt(CGAL::squared_distance(p, Kernel::Triangle_3(corner(0), corner(1), corner(2))));
+}
+
+// The rough radius at a point is its distance from the triangles whose vertices flowed there; a point that
+// none flowed to has that of the nearest one along the skeleton that has.
+void measure_radii(const Surface& s, CurveSkeleton& k) {
+  k.radii.assign(k.points.size(), -1);
+  std::vector<std::uint32_t> queue;
+  for (std::uint32_t n = 0; n < k.points.size(); ++n) {
+    const Point p(k.points[n].x, k.points[n].y, k.points[n].z);
+    for (const std::uint32_t t : k.triangles[n]) {
+      const double d = distance_to_triangle(s, t, p);
+      if (k.radii[n] < 0 || d < k.radii[n]) k.radii[n] = d;
+    }
+    if (k.radii[n] >= 0) queue.push_back(n);
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> both = k.edges;
+  for (const auto& [a, b] : k.edges) both.emplace_back(b, a);
+  const Lists neighbours = make_lists(both, k.points.size());
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (const std::uint32_t n : neighbours[queue[i]]) {
+      if (k.radii[n] < 0) k.radii[n] = k.radii[queue[i]], queue.push_back(n);
+    }
+  }
+}
+
 }  // namespace
 
 CurveSkeleton flow_skeleton(const Surface& surface) {
@@ -191,7 +223,7 @@ CurveSkeleton flow_skeleton(const Surface& surface) {
       Flow::Skeleton flowed;
       Flow flow(mesh);
       flow(flowed);
-      add_skeleton(flowed, mesh, frame, surface, k);
+      add_skeleton(flowed, mesh, frame, k);
     }
   } catch (const std::exception&) {
     return {};  // a factorisation failed: the caller has another method
@@ -204,6 +236,7 @@ CurveSkeleton flow_skeleton(const Surface& surface) {
   }
   k.base = k.node_of[lowest];
   connect(surface, k);
+  measure_radii(surface, k);
   return k;
 }
 

@@ -71,7 +71,8 @@ std::vector<LimbSample> LimbSampler::spread(const Limb& limb, const LimbProfile&
   if (length > fixed.back().way) fixed.push_back({{}, length, 0, false, false});
 
   std::vector<LimbSample> samples;
-  const double finest = length * k_least_size;
+  const double finest =
+      std::max(length * k_least_size, std::ranges::max(profile.thickness) * k_least_spacing);
   for (std::size_t i = 0; i + 1 < fixed.size(); ++i) {
     const double from = fixed[i].way, to = fixed[i + 1].way;
     samples.push_back(fixed[i]);
@@ -81,7 +82,7 @@ std::vector<LimbSample> LimbSampler::spread(const Limb& limb, const LimbProfile&
     while (way < to) {
       std::uint32_t node = 0;
       point_at(limb, profile, way, node);
-      way += std::max(k_sample_spacing * profile.thickness[node], finest);
+      way += k_sample_spacing * std::max(profile.thickness[node], finest);
       steps.push_back(way);
     }
     const bool drop = steps.size() > 1 && steps.back() - to > to - steps[steps.size() - 2];
@@ -203,27 +204,52 @@ std::vector<LimbSample> LimbSampler::sample(const Limb& limb, const LimbProfile&
   return samples;
 }
 
-void bridge_gaps(std::span<LimbSample> samples, std::span<const LimbFork> forks) {
-  std::vector<std::uint8_t> clean(samples.size(), 0);
+namespace {
+
+// Replaces the circles of what is not marked by what the nearest marked ones on both sides imply.
+void interpolate(std::span<LimbSample> samples, std::span<const std::uint8_t> marked) {
+  std::size_t last = samples.size();
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const bool at_fork = std::ranges::any_of(
-        forks, [&](const LimbFork& f) { return samples[i].way >= f.from && samples[i].way <= f.to; });
-    clean[i] = samples[i].measured && (i == 0 || i + 1 == samples.size() || !at_fork);
-    if (i < 2 || !clean[i] || !clean[i - 1] || !clean[i - 2]) continue;
-    const double widest = std::max(samples[i - 2].circle.radius, samples[i].circle.radius);
-    if (samples[i - 1].circle.radius > k_bulge * widest) clean[i - 1] = 0;
-  }
-  if (std::ranges::count(clean, 1) > 0) {
-    for (std::size_t i = 0; i < samples.size(); ++i) samples[i].measured = clean[i] != 0;
-  }
-  std::size_t last = samples.size();  // the last one that was measured
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (!samples[i].measured) continue;
+    if (!marked[i]) continue;
     for (std::size_t j = last + 1; last < samples.size() && j < i; ++j) {
       samples[j].circle = between(samples[last], samples[i], samples[j].way);
     }
     last = i;
   }
+}
+
+}  // namespace
+
+void bridge_gaps(std::span<LimbSample> samples, std::span<const LimbFork> forks) {
+  const std::size_t n = samples.size();
+  std::vector<int> forks_begin(n + 1, 0);  // how many forks' stretches begin at a sample, less those that end
+  for (const LimbFork& f : forks) {
+    const auto from = std::ranges::lower_bound(samples, f.from, {}, &LimbSample::way) - samples.begin();
+    const auto to = std::ranges::upper_bound(samples, f.to, {}, &LimbSample::way) - samples.begin();
+    if (from < to) ++forks_begin[static_cast<std::size_t>(from)], --forks_begin[static_cast<std::size_t>(to)];
+  }
+  std::vector<std::uint8_t> clean(n, 0), measured(n, 0);
+  int forks_here = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    forks_here += forks_begin[i];
+    measured[i] = samples[i].measured;
+    clean[i] = measured[i] && (i == 0 || i + 1 == n || forks_here == 0);
+  }
+  // What the clean ones imply is what the others are judged by: a section that takes in another limb is
+  // wider.
+  std::vector<LimbSample> implied(samples.begin(), samples.end());
+  if (std::ranges::count(clean, 1) > 1) {
+    interpolate(implied, clean);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!clean[i] && samples[i].circle.radius > k_bulge * implied[i].circle.radius) measured[i] = 0;
+    }
+  }
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    if (!measured[i - 1] || !measured[i] || !measured[i + 1]) continue;
+    const double widest = std::max(samples[i - 1].circle.radius, samples[i + 1].circle.radius);
+    if (samples[i].circle.radius > k_bulge * widest) measured[i] = 0;
+  }
+  interpolate(samples, measured);
 }
 
 std::vector<LimbSample> thin_out(const std::vector<LimbSample>& samples) {

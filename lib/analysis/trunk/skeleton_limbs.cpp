@@ -117,10 +117,21 @@ class LimbFinder {
     }
   }
 
-  // The thickest of the limbs that start at a fork, by the mean over its first stretch; one that is too short
-  // to be called a limb counts for less.
+  // The node a stretch of the way before a fork.
+  std::uint32_t node_before(std::uint32_t fork, double stretch) const {
+    std::uint32_t v = fork;
+    for (double way = 0; parent_[v] != k_none && way < stretch; v = parent_[v]) {
+      way += distance(k_.points[v], k_.points[parent_[v]]);
+    }
+    return v;
+  }
+
+  // The thickest and straightest of the limbs that start at a fork, over their first stretch; one that is too
+  // short to be called a limb counts for less.
   std::uint32_t best_continuation(std::uint32_t fork, const std::vector<std::uint32_t>& longest) const {
     const double stretch = k_fork_stretch * k_.radii[fork];
+    const std::uint32_t from = node_before(fork, stretch);
+    const Double3 forward = normalized(k_.points[fork] - k_.points[from], {});
     std::uint32_t best = k_none;
     double best_score = -1;
     for (const std::uint32_t w : neighbours_[fork]) {
@@ -128,13 +139,16 @@ class LimbFinder {
       const double first = distance(k_.points[fork], k_.points[w]);
       double sum = 0, way = first;
       std::size_t count = 0;
-      for (std::uint32_t v = w;; v = longest[v]) {
+      std::uint32_t v = w;
+      for (;; v = longest[v]) {
         sum += k_.radii[v], ++count;
         if (longest[v] == k_none || way > stretch) break;
         way += distance(k_.points[v], k_.points[longest[v]]);
       }
-      const double thickness = sum / static_cast<double>(count);
-      const double score = std::min(thickness, (reach_[w] + first) / k_limb_length);
+      const double thickness =
+          std::min(sum / static_cast<double>(count), (reach_[w] + first) / k_limb_length);
+      const double bend = dot(forward, normalized(k_.points[v] - k_.points[from], forward));
+      const double score = thickness * (1 + k_straightness * bend);
       if (score > best_score) best_score = score, best = w;
     }
     return best;

@@ -14,13 +14,14 @@ namespace copse {
 
 namespace {
 
-// The surface skeleton, and the name of the method that made it.
-std::pair<Hierarchy, const char*> skeletonize(const Surface& surface, SurfaceMethod method) {
+// The surface skeleton, and the name of the method that made it. `may_flow`: whether a tenth of a second is
+// at hand.
+std::pair<Hierarchy, const char*> skeletonize(const Surface& surface, SurfaceMethod method, bool may_flow) {
   if (method == SurfaceMethod::flow) {
     return {surface_skeleton(surface, SkeletonMethod::flow), "mean-curvature flow"};
   }
   Hierarchy levels = surface_skeleton(surface, SkeletonMethod::levels);
-  if (method == SurfaceMethod::automatic && surface.triangles.size() <= k_flow_triangles) {
+  if (method == SurfaceMethod::automatic && may_flow) {
     const double cost = fit_of(surface, levels).cost();
     if (cost > k_poor_fit) {
       Hierarchy flow = surface_skeleton(surface, SkeletonMethod::flow);
@@ -42,7 +43,7 @@ void add_only_radius(const Surface& s, Hierarchy& h) {
   h.segment_of.assign(s.triangles.size(), k_none);
 }
 
-Hierarchy recover_surface(const Surface& s, const WeldedOptions& options) {
+Hierarchy recover_surface(const Surface& s, const WeldedOptions& options, bool may_flow) {
   RingReading rings;
   if (options.method != WeldedMethod::surface) rings = read_fork_rings(s);
   if (options.method == WeldedMethod::rings) {
@@ -50,7 +51,7 @@ Hierarchy recover_surface(const Surface& s, const WeldedOptions& options) {
     return std::move(rings.hierarchy);
   }
   if (rings.in_bands >= k_rings_suffice) return std::move(rings.hierarchy);
-  auto [skeleton, name] = skeletonize(s, options.surface);
+  auto [skeleton, name] = skeletonize(s, options.surface, may_flow);
   if (!rings.hierarchy.radii.empty() &&
       fit_of(s, rings.hierarchy).cost() <= k_rings_may_cost * fit_of(s, skeleton).cost()) {
     return std::move(rings.hierarchy);
@@ -69,7 +70,11 @@ Hierarchy recover_welded(const TrunkMesh& whole, std::span<const std::uint32_t> 
                          const WeldedOptions& options) {
   if (triangles.empty()) return {};
   const Surface surface = make_surface(whole, triangles);
-  Hierarchy h = recover_surface(surface, options);
+  // At most 1 / k_flow_share surfaces of a mesh can be this large, so the time that flowing takes is bounded.
+  const bool may_flow =
+      triangles.size() <= k_flow_triangles &&
+      static_cast<double>(triangles.size()) >= k_flow_share * static_cast<double>(whole.triangles.size());
+  Hierarchy h = recover_surface(surface, options, may_flow);
   for (std::uint32_t& v : h.ring_vertices) v = surface.vertex[v];
   std::vector<std::uint32_t> segment_of;
   segment_of.reserve(triangles.size());

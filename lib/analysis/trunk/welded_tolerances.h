@@ -64,6 +64,8 @@ inline constexpr double k_spur_reach = 1.5;
 // Radii of the fork: the stretch over which the limbs that leave it are compared; slices next to the fork are
 // torn.
 inline constexpr double k_fork_stretch = 3;
+// How much going straight on counts against being thick at a fork.
+inline constexpr double k_straightness = 1;
 // A limb shorter than so many of its radii counts at a fork as if it were thinner by as much.
 inline constexpr double k_limb_length = 4;
 
@@ -76,12 +78,15 @@ inline constexpr double k_sample_spacing = 1.5;
 // Share of a limb's length: thinner than this it counts as this thick when samples are spaced and left out,
 // so that a flat or empty outline, which has no radius, does not ask for infinitely many.
 inline constexpr double k_least_size = 1.0 / 4096;
+// Share of a limb's greatest thickness: samples are not nearer than where it is this thick, or a cone's tip
+// would have a dozen.
+inline constexpr double k_least_spacing = 1.0 / 16;
 // Neighbouring skeleton points whose triangles are tried when a point has none.
 inline constexpr std::size_t k_seed_reach = 8;
 // Rough radii: a section that is wider belongs to something else.
 inline constexpr double k_widest_section = 3;
 // A sample moves, its neighbours' directions follow, it moves again: the second move is a tenth of the first.
-inline constexpr int k_section_rounds = 3;
+inline constexpr int k_section_rounds = 2;
 // Share of the way to a limb's end at which the end is measured: before a rounded edge, after a cone's
 // beginning.
 inline constexpr double k_end_section = 0.9;
@@ -107,6 +112,9 @@ inline constexpr double k_fork_before = 1, k_fork_behind = 0.25;
 // Triangles: a piece of more is thinned out to so many before it flows; each step factorises a matrix of that
 // size.
 inline constexpr std::size_t k_flow_triangles = 8000;
+// Triangles: the long edges of a piece of fewer are cut: the flow needs vertices round a limb to find its
+// middle.
+inline constexpr std::size_t k_flow_triangles_at_least = 2000;
 
 // --- welded
 
@@ -120,5 +128,7 @@ inline constexpr double k_rings_may_cost = 1.5;
 // instead.
 inline constexpr double k_poor_fit = 0.02;
 inline constexpr double k_clearly_better = 0.8;
+// Share of the mesh's triangles that a surface must have to be worth the tenth of a second that a flow takes.
+inline constexpr double k_flow_share = 1.0 / 8;
 
 }  // namespace copse
