@@ -144,20 +144,18 @@ double surface(const StoredSphere& s) {
 }
 
 // Takes out inner nodes that cost a test and spare fewer: with m children, and met with probability p when
-// its parent is, a node costs 1 + p m tests instead of m. Children move to the parent.
-void take_out_needless(std::vector<Node>& nodes) {
-  Indices children(nodes.size(), 0);
-  for (const Node& n : nodes) {
-    if (n.parent != k_none) ++children[n.parent];
-  }
+// the node above is, a node costs 1 + p m tests instead of m. Children move up. From the root down, so that
+// what is above is final. Answers whether any was taken out.
+bool take_out_needless(std::vector<Node>& nodes) {
+  const Children children(nodes);
   std::vector<bool> out(nodes.size(), false);
-  for (std::size_t n = nodes.size(); n-- > 1;) {
-    if (nodes[n].group != k_none) continue;
+  Indices above(nodes.size(), k_none);  // the nearest node above that stays
+  for (std::uint32_t n = 1; n < nodes.size(); ++n) {
     const std::uint32_t parent = nodes[n].parent;
-    const double all = surface(nodes[parent].sphere), own = surface(nodes[n].sphere);
-    if (children[n] * (all - own) >= all) continue;
-    out[n] = true;
-    children[parent] += children[n] - 1;
+    above[n] = out[parent] ? above[parent] : parent;
+    if (nodes[n].group != k_none) continue;
+    const double all = surface(nodes[above[n]].sphere), own = surface(nodes[n].sphere);
+    out[n] = static_cast<double>(children.of(n).size()) * (all - own) < all;
   }
   Indices number(nodes.size(), k_none);
   std::vector<Node> kept;
@@ -170,7 +168,9 @@ void take_out_needless(std::vector<Node>& nodes) {
     kept.push_back(nodes[n]);
     if (nodes[n].parent != k_none) kept.back().parent = number[nodes[n].parent];
   }
+  const bool any = kept.size() < nodes.size();
   nodes = std::move(kept);
+  return any;
 }
 
 }  // namespace
@@ -180,8 +180,9 @@ std::vector<GroupNode> group_hierarchy(std::span<const LeafGroup> groups, GroupB
   std::vector<Node> nodes = build(groups, builder);
   fit_spheres(groups, nodes);
   if (builder == GroupBuilder::sweep) {
-    take_out_needless(nodes);
-    fit_spheres(groups, nodes);
+    // Spheres round more children are smaller, which makes a few more nodes needless; a third round finds
+    // next to none.
+    for (int round = 0; round < 2 && take_out_needless(nodes); ++round) fit_spheres(groups, nodes);
   }
   // build() wrote them depth first, and taking nodes out keeps that order.
   std::vector<GroupNode> out(nodes.size());
@@ -196,14 +197,19 @@ std::vector<GroupNode> group_hierarchy(std::span<const LeafGroup> groups, GroupB
 }
 
 double expected_tests(std::span<const GroupNode> nodes) {
-  if (nodes.empty()) return 0;
-  const double root = double{nodes[0].radius} * nodes[0].radius;
+  std::vector<Sphere> bottom;
+  for (const GroupNode& n : nodes) {
+    if (n.group != k_none) bottom.push_back({to_double(n.centre), n.radius});
+  }
+  if (bottom.empty()) return 0;
+  const double radius = minimal_sphere(bottom).radius;
   double tests = 1;
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
     if (nodes[n].group != k_none) continue;
     double children = 0;
     for (std::uint32_t c = n + 1; c < nodes[n].skip; c = nodes[c].skip) ++children;
-    tests += children * (root > 0 ? double{nodes[n].radius} * nodes[n].radius / root : 1);
+    const double share = radius > 0 ? nodes[n].radius / radius : 1;
+    tests += children * share * share;
   }
   return tests;
 }

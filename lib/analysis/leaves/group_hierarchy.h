@@ -23,9 +23,10 @@ enum class GroupBuilder : std::uint8_t {
 std::vector<GroupNode> group_hierarchy(std::span<const LeafGroup> groups,
                                        GroupBuilder builder = GroupBuilder::sweep);
 
-// How many spheres are tested, on average over the planes or lines that meet the root's sphere: each node
-// whose parent is met, and a sphere is met in proportion to its surface. The number of groups when the
-// hierarchy saves nothing.
+// How many spheres are tested, on average over the planes or lines that meet the smallest sphere round all
+// groups: the root and each node whose parent is met; a sphere is met in proportion to its surface (a nested
+// sphere may be larger than the smallest: then it counts more than once). About the number of groups when
+// the hierarchy saves nothing.
 double expected_tests(std::span<const GroupNode> nodes);
 
 }  // namespace copse

@@ -92,34 +92,16 @@ std::uint32_t limit_groups(std::span<const Double3> leaves, std::uint32_t limit,
 
 // --- spheres ---------------------------------------------------------------------------------------------
 
-// The distinct vertices of a group's leaves, relative to the origin. The mark of a vertex is the group that
-// took it last.
-class GroupVertices {
- public:
-  GroupVertices(const Mesh& mesh, const LeafGeometry& leaves, const Double3& origin)
-      : mesh_(mesh), leaves_(leaves), origin_(origin), mark_(mesh.positions.size(), k_none) {}
-
-  std::span<const Double3> of(std::uint32_t group, std::span<const std::uint32_t> members) {
-    points_.clear();
-    for (const std::uint32_t leaf : members) {
-      for (const std::uint32_t t : leaves_.of(leaf)) {
-        for (const std::uint32_t v : mesh_.triangles[t]) {
-          if (mark_[v] == group) continue;
-          mark_[v] = group;
-          points_.push_back(mesh_.positions[v] - origin_);
-        }
-      }
+// The corners of a group's leaves, relative to the origin; repeats do no harm.
+void read_corners(const Mesh& mesh, const LeafGeometry& leaves, std::span<const std::uint32_t> members,
+                  const Double3& origin, std::vector<Double3>& points) {
+  points.clear();
+  for (const std::uint32_t leaf : members) {
+    for (const std::uint32_t t : leaves.of(leaf)) {
+      for (const std::uint32_t v : mesh.triangles[t]) points.push_back(mesh.positions[v] - origin);
     }
-    return points_;
   }
-
- private:
-  const Mesh& mesh_;
-  const LeafGeometry& leaves_;
-  Double3 origin_;
-  Indices mark_;
-  std::vector<Double3> points_;
-};
+}
 
 // The smallest sphere of the points in double, about a float32 centre, widened to the points in float32.
 StoredSphere sphere_of(std::span<const Double3> points) {
@@ -181,12 +163,13 @@ LeafGroups leaf_groups(const Mesh& mesh, const LeafGeometry& leaves, std::span<c
   out.order.resize(leaves.count());
   for (std::uint32_t l = 0; l < leaves.count(); ++l) out.order[next[out.group_of[l]]++] = l;
 
-  GroupVertices vertices(mesh, leaves, options.origin);
+  std::vector<Double3> corners;
   const Random stream = Random(options.seed).fork(k_order_stream);
   for (std::uint32_t g = 0; g < out.groups.size(); ++g) {
     LeafGroup& group = out.groups[g];
     const std::span<std::uint32_t> members = std::span(out.order).subspan(group.first, group.count);
-    const StoredSphere sphere = sphere_of(vertices.of(g, members));
+    read_corners(mesh, leaves, members, options.origin, corners);
+    const StoredSphere sphere = sphere_of(corners);
     group.centre = sphere.centre;
     group.radius = sphere.radius;
     double area = 0;

@@ -3,7 +3,10 @@
 #include "lib/analysis/trunk/weld.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace copse {
 namespace {
@@ -19,7 +22,8 @@ struct Cards {
 
 double area_of(const Mesh& mesh, const Triangle& t) {
   const Double3 a = mesh.positions[t[0]];
-  return length(cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a)) / 2;
+  const Double3 n = cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+  return std::sqrt(dot(n, n)) / 2;
 }
 
 Cards read_cards(const Mesh& mesh, const PieceTriangles& pieces, std::span<const std::uint8_t> is_leaf) {
@@ -45,9 +49,74 @@ double tolerance(std::vector<double> areas) {
   return std::isfinite(*middle) ? k_same_centre * std::sqrt(*middle) : 0;
 }
 
+// Cells of 32 tolerances, hashed to counters of two bits. Tells in two passes over a small table which points
+// can have another within the tolerance at all: in most crowns nearly none, and those need no search.
+class Crowding {
+ public:
+  Crowding(std::span<const Double3> points, double tolerance)
+      : tolerance_(tolerance), counts_(std::bit_ceil(4 * points.size() + 64), 0) {
+    for (const Double3& p : points) low_.grow(p);
+    for (const Double3& p : points) {
+      const std::size_t at = slot(cell(p.x, 0), cell(p.y, 1), cell(p.z, 2));
+      std::uint8_t& byte = counts_[at >> 2];
+      const unsigned shift = 2 * (at & 3);
+      if ((byte >> shift & 3) < 2) byte = static_cast<std::uint8_t>(byte + (1u << shift));
+    }
+  }
+
+  bool may_meet(const Double3& p) const {
+    const auto reach = [&](double x, int axis) {
+      return std::array{cell(x - tolerance_, axis), cell(x + tolerance_, axis)};
+    };
+    const auto x = reach(p.x, 0), y = reach(p.y, 1), z = reach(p.z, 2);
+    unsigned found = 0;  // itself, and others
+    for (std::int64_t i = x[0]; i <= x[1]; ++i) {
+      for (std::int64_t j = y[0]; j <= y[1]; ++j) {
+        for (std::int64_t k = z[0]; k <= z[1]; ++k) {
+          const std::size_t at = slot(i, j, k);
+          found += counts_[at >> 2] >> 2 * (at & 3) & 3;
+        }
+      }
+    }
+    return found > 1;
+  }
+
+ private:
+  std::int64_t cell(double x, int axis) const {
+    return static_cast<std::int64_t>(std::clamp((x - low_.min[axis]) / (32 * tolerance_), -1.0, 0x1p60));
+  }
+  std::size_t slot(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    std::uint64_t h = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u;
+    h = (h ^ static_cast<std::uint64_t>(y)) * 0xff51afd7ed558ccdu;
+    h = (h ^ static_cast<std::uint64_t>(z)) * 0xc4ceb9fe1a85ec53u;
+    return (h ^ h >> 32) & (4 * counts_.size() - 1);
+  }
+
+  double tolerance_;
+  DoubleBox low_;
+  std::vector<std::uint8_t> counts_;
+};
+
+// weld() of the points that may have company; every other one is its own.
+std::vector<std::uint32_t> weld_few(std::span<const Double3> points, double tolerance) {
+  std::vector<std::uint32_t> met(points.size()), crowded;
+  std::iota(met.begin(), met.end(), 0u);
+  if (!(tolerance > 0)) return weld(points, 0.0);
+  const Crowding crowding(points, tolerance);
+  std::vector<Double3> few;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (!crowding.may_meet(points[i])) continue;
+    crowded.push_back(i);
+    few.push_back(points[i]);
+  }
+  const std::vector<std::uint32_t> joined = weld(few, tolerance);
+  for (std::size_t i = 0; i < joined.size(); ++i) met[crowded[i]] = crowded[joined[i]];
+  return met;
+}
+
 // For every card the lowest card that it would be one leaf with, itself for none.
 std::vector<std::uint32_t> partners(const PieceTriangles& pieces, const Cards& cards) {
-  std::vector<std::uint32_t> partner = weld(cards.centre, tolerance(cards.area));
+  std::vector<std::uint32_t> partner = weld_few(cards.centre, tolerance(cards.area));
   for (std::uint32_t c = 0; c < partner.size(); ++c) {
     const std::uint32_t first = partner[c];
     const auto [small, large] = std::minmax(cards.area[c], cards.area[first]);

@@ -25,6 +25,11 @@ constexpr double k_stem_elongation = 1.8;
 constexpr double k_stem_fill = 0.1;
 constexpr double k_planar_cosine = 1 - 1e-6;
 
+// Coordinates are about 1 here: squares are safe, and much cheaper than length().
+double norm(const Double3& a) {
+  return std::sqrt(dot(a, a));
+}
+
 // Sums over the triangles of a piece, relative to its box's centre and in units of its size.
 struct Sums {
   double area = 0, border = 0, volume = 0;
@@ -66,7 +71,7 @@ class Reader {
       add_triangle(p, sums);
       sums.volume += dot(cross(p[0], p[1]), p[2]) / 6;
       for (int e = 0; e < 3; ++e) {
-        if (edges[t] & Pieces::border_0 << e) sums.border += length(p[(e + 1) % 3] - p[e]);
+        if (edges[t] & Pieces::border_0 << e) sums.border += norm(p[(e + 1) % 3] - p[e]);
       }
       sums.non_manifold |= (edges[t] & Pieces::non_manifold) != 0;
     }
@@ -78,7 +83,7 @@ class Reader {
       const std::array<Double3, 3> p{at(mesh_.triangles[t][0]), at(mesh_.triangles[t][1]),
                                      at(mesh_.triangles[t][2])};
       const Double3 normal = cross(p[1] - p[0], p[2] - p[0]) * 0.5;
-      const double area = std::sqrt(dot(normal, normal));
+      const double area = norm(normal);
       if (!(area > 0)) continue;
       add_product(sums.facing, normal, 1 / area);
       for (const Double3& corner : p) {
@@ -104,7 +109,7 @@ class Reader {
  private:
   static void add_triangle(const std::array<Double3, 3>& p, Sums& sums) {
     const Double3 normal = cross(p[1] - p[0], p[2] - p[0]) * 0.5;
-    const double area = std::sqrt(dot(normal, normal));
+    const double area = norm(normal);
     if (!(area > 0)) return;
     sums.area += area;
     sums.area_vector += normal;
@@ -161,7 +166,7 @@ SingleLayer single_layer(const Mesh& mesh, std::span<const std::uint32_t> welded
   std::sort(edges.begin(), edges.end());
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     while (end < edges.size() && edges[end] == edges[begin]) ++end;
-    if (end - begin == 1) layer.border += length(reader.at(edges[begin][1]) - reader.at(edges[begin][0]));
+    if (end - begin == 1) layer.border += norm(reader.at(edges[begin][1]) - reader.at(edges[begin][0]));
   }
   return layer;
 }
@@ -173,7 +178,7 @@ double roundness(const Sums& sums) {  // 36 pi V^2 / A^3
 // Sheets of one layer, told without looking at their axes: nearly all of a foliage ends here.
 bool is_single_sheet(const Sums& sums) {
   if (sums.border * sums.border < k_sheet_border * sums.area) return false;
-  return sums.non_manifold || length(sums.area_vector) >= k_sheet_opening * sums.area;
+  return sums.non_manifold || norm(sums.area_vector) >= k_sheet_opening * sums.area;
 }
 
 void judge_solid(const Reader& reader, Sums& sums, PieceShape& shape) {
