@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/formats/import/import.h"
+#include "tests/import/soundness.h"
 
 #include <cstdint>
 #include <cstdio>
@@ -77,31 +78,8 @@ class Folder {
   std::filesystem::path path_;
 };
 
-// Every promise of import.h about what a Mesh holds.
 inline void expect_sound(const Mesh& mesh) {
-  for (const Double3& p : mesh.positions) ASSERT_TRUE(is_finite(p));
-  for (const Float3& n : mesh.normals) ASSERT_TRUE(is_finite(n));
-  for (const Float2& t : mesh.texcoords) ASSERT_TRUE(std::isfinite(t.x) && std::isfinite(t.y));
-  const std::size_t count = mesh.triangles.size();
-  ASSERT_EQ(mesh.part_of.size(), count);
-  ASSERT_TRUE(mesh.normal_triangles.empty() || mesh.normal_triangles.size() == count);
-  ASSERT_TRUE(mesh.texcoord_triangles.empty() || mesh.texcoord_triangles.size() == count);
-  ASSERT_TRUE(mesh.face_of.empty() || mesh.face_of.size() == count);
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t i : t) ASSERT_LT(i, mesh.positions.size());
-    ASSERT_TRUE(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
-  }
-  for (const Triangle& t : mesh.normal_triangles) {
-    for (const std::uint32_t i : t) ASSERT_TRUE(i == k_none || i < mesh.normals.size());
-  }
-  for (const Triangle& t : mesh.texcoord_triangles) {
-    for (const std::uint32_t i : t) ASSERT_TRUE(i == k_none || i < mesh.texcoords.size());
-  }
-  for (const std::uint32_t part : mesh.part_of) ASSERT_LT(part, mesh.parts.size());
-  for (const Part& part : mesh.parts)
-    ASSERT_TRUE(part.material == k_none || part.material < mesh.materials.size());
-  for (const Material& m : mesh.materials)
-    ASSERT_TRUE(m.texture == k_none || m.texture < mesh.textures.size());
+  EXPECT_EQ(broken_promise(mesh), nullptr) << broken_promise(mesh);
 }
 
 inline std::vector<Triangle> triangles(const Import& import) {

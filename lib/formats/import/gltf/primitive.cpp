@@ -273,8 +273,8 @@ bool PrimitiveReader::triangles(std::span<const std::uint32_t> order, std::uint6
       t = {order[3 * i], order[3 * i + 1], order[3 * i + 2]};
     } else {
       // Strips and fans as the specification lists them; a strip turns its corners round every other time.
-      t = mode == k_fan ? std::array{order[0], order[i + 1], order[i + 2]}
-                        : std::array{order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]};
+      t = mode == k_strip ? std::array{order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]}
+                          : std::array{order[0], order[i + 1], order[i + 2]};
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // strips are stitched with these
     }
     if (mirrored) std::swap(t[1], t[2]);

@@ -6,11 +6,14 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <unistd.h>
 
 namespace {
 
@@ -50,6 +53,64 @@ float srgb_to_linear(std::uint8_t b) {
 bool is_linear(const OIIO::ImageSpec& spec) {
   return spec.format.is_floating_point();
 }
+
+// libpng prints its complaints to stderr, where a tool says one line and no more. While an image is decoded
+// that line is collected instead, and ends up in the error. What other threads print meanwhile passes
+// through.
+class Complaints {
+ public:
+  Complaints() {
+    const std::lock_guard lock(mutex());
+    mine() = &text_;
+    if (users()++ == 0) original() = std::exchange(stderr, stream());
+  }
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
+  ~Complaints() {
+    const std::lock_guard lock(mutex());
+    mine() = nullptr;
+    if (--users() == 0) stderr = original();
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+  static int& users() {
+    static int count = 0;
+    return count;
+  }
+  static std::FILE*& original() {
+    static std::FILE* file = nullptr;
+    return file;
+  }
+  static std::string*& mine() {
+    thread_local std::string* text = nullptr;
+    return text;
+  }
+  static ssize_t put(void*, const char* bytes, std::size_t size) {
+    if (mine() != nullptr) {
+      if (mine()->size() < 1024) mine()->append(bytes, size);
+      return static_cast<ssize_t>(size);
+    }
+    return ::write(STDERR_FILENO, bytes, size);
+  }
+  // Never closed: another thread may be about to print to it.
+  static std::FILE* stream() {
+    static std::FILE* file = [] {
+      cookie_io_functions_t functions{};
+      functions.write = put;
+      std::FILE* made = ::fopencookie(nullptr, "w", functions);
+      if (made != nullptr) std::setvbuf(made, nullptr, _IONBF, 0);
+      return made != nullptr ? made : stderr;
+    }();
+    return file;
+  }
+
+  std::string text_;
+};
 
 struct Layout {
   int channels;  // that are read: 1 to 4
@@ -189,7 +250,13 @@ extern "C" {
 [[gnu::visibility("default")]] int copse_image_decode(const std::uint8_t* bytes, std::size_t size,
                                                       const char* format, CopseImageAllocate allocate,
                                                       void* user, CopseImageError* error) {
-  return guarded(error, [&] { return decode(bytes, size, format, allocate, user, error); });
+  return guarded(error, [&] {
+    const Complaints complaints;
+    const int status = decode(bytes, size, format, allocate, user, error);
+    // OpenImageIO's own words are often none when the library below has spoken.
+    if (status != 0 && !complaints.text().empty()) return report(error, complaints.text());
+    return status;
+  });
 }
 
 [[gnu::visibility("default")]] int copse_image_encode(const std::uint8_t* rgba, int width, int height,
