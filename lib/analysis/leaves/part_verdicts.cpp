@@ -51,7 +51,7 @@ class Patterns {
       bool used = false;
       for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
         for (const auto& [what, name] : names_of(mesh, mesh.parts[p])) {
-          if (name.empty() || !glob_match(pattern, name)) continue;
+          if (!glob_match(pattern, name)) continue;  // "*" also takes what has no name
           used = true;
           if (claims_[p].empty())
             claims_[p] = option_ + (" '" + pattern + "' matches " + what + " '" + name + "'");
