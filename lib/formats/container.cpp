@@ -36,6 +36,13 @@ std::string shown_name(std::span<const std::uint8_t> name) {
   return text;
 }
 
+// Memory aligned as sections are in a file and not filled first; null when there is not that much.
+std::shared_ptr<std::uint8_t> room_for(std::size_t size) {
+  constexpr std::align_val_t k_alignment{k_section_alignment};
+  auto* bytes = static_cast<std::uint8_t*>(::operator new(size, k_alignment, std::nothrow));
+  return {bytes, [](std::uint8_t* p) { ::operator delete(p, k_alignment); }};
+}
+
 struct TableReader {
   const std::string& file;
   std::span<const std::uint8_t> bytes;
@@ -227,16 +234,13 @@ Result<Array<std::uint8_t>> Container::read(const SectionInfo& section, Verify c
   const std::size_t frame = ZSTD_findFrameCompressedSize(bytes.data(), bytes.size());
   if (ZSTD_isError(frame) || frame != bytes.size())
     return refuse_section(section, 0, what + "does not end with it");
-  std::vector<std::uint8_t> decoded;
-  try {
-    decoded.resize(section.decoded_size);
-  } catch (const std::bad_alloc&) {
+  const auto decoded = room_for(section.decoded_size);
+  if (!decoded)
     return refuse_section(section, 0, fmt::format("no memory for its {} bytes", section.decoded_size));
-  }
-  const std::size_t size = ZSTD_decompress(decoded.data(), decoded.size(), bytes.data(), bytes.size());
+  const std::size_t size = ZSTD_decompress(decoded.get(), section.decoded_size, bytes.data(), bytes.size());
   if (ZSTD_isError(size)) return refuse_section(section, 0, what + "is damaged: " + ZSTD_getErrorName(size));
-  if (size != decoded.size()) return refuse_section(section, 0, what + "is too short");
-  return Array<std::uint8_t>(std::move(decoded));
+  if (size != section.decoded_size) return refuse_section(section, 0, what + "is too short");
+  return Array<std::uint8_t>({decoded.get(), size}, decoded);
 }
 
 }  // namespace copse

@@ -23,11 +23,11 @@ class AtomicFile : public testing::Test {
  protected:
   void SetUp() override {
     std::string name = testing::TempDir() + "copse_atomic_XXXXXX";
-    folder_ = ::mkdtemp(name.data());
+    folder = ::mkdtemp(name.data());
   }
-  void TearDown() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder); }
 
-  fs::path at(const std::string& name) const { return folder_ / name; }
+  fs::path at(const std::string& name) const { return folder / name; }
   std::string text(const std::string& name) const {
     std::ifstream in(at(name), std::ios::binary);
     std::ostringstream out;
@@ -36,11 +36,11 @@ class AtomicFile : public testing::Test {
   }
   std::vector<std::string> names() const {
     std::vector<std::string> out;
-    for (const auto& entry : fs::directory_iterator(folder_)) out.push_back(entry.path().filename());
+    for (const auto& entry : fs::directory_iterator(folder)) out.push_back(entry.path().filename());
     std::sort(out.begin(), out.end());
     return out;
   }
-  fs::path folder_;
+  fs::path folder;
 };
 
 TEST_F(AtomicFile, WritesTheBytesAndNothingElse) {

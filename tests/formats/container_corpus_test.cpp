@@ -1,6 +1,5 @@
 // Replays fuzz/corpus/container: what the fuzzer found interesting, and what it once found wrong.
 #include "tests/formats/read_everything.h"
-#include "tests/formats/tree_maker.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -34,36 +33,7 @@ TEST(ContainerCorpus, HasSoundSeeds) {
     const auto file = TreeFile::open(entry.path());
     if (file && file->load()) ++sound;
   }
-  EXPECT_GE(sound, 6) << "write them again: --gtest_also_run_disabled_tests --gtest_filter='*WritesTheSeeds'";
-}
-
-TEST(ContainerCorpus, DISABLED_WritesTheSeeds) {
-  fs::create_directories(k_corpus);
-  for (const TreeKind kind : {TreeKind::still, TreeKind::sensitive}) {
-    for (const bool constant : {false, true}) {
-      for (const Encoding encoding : {Encoding::raw, Encoding::zstd}) {
-        const std::uint32_t one = constant ? 2 : 0;
-        const Tree tree = make_tree({.kind = kind,
-                                     .roots = 1,
-                                     .radii = 4,
-                                     .leaves = 3,
-                                     .groups = 2,
-                                     .ring = one,
-                                     .segment = one,
-                                     .leaf = one,
-                                     .one_material = constant},
-                                    1);
-        const auto bytes = encode_tree(
-            tree, {.encoding = encoding,
-                   .omit = constant ? std::vector<std::string>{"TNRM", "TTEX"} : std::vector<std::string>{}});
-        const std::string name = std::string(encoding == Encoding::raw ? "raw" : "zstd") +
-                                 (constant ? "_constant" : "") +
-                                 (kind == TreeKind::still ? ".tree" : ".stree");
-        std::ofstream(k_corpus / name, std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
-      }
-    }
-  }
+  EXPECT_GE(sound, 6) << "write them again: fuzz_container_seeds fuzz/corpus/container";
 }
 
 }  // namespace

@@ -2,14 +2,11 @@
 
 #include "tests/formats/tree_maker.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 namespace copse {
 namespace {
-
-using testing::IsEmpty;
 
 TreeShape any_shape() {
   TreeShape s;

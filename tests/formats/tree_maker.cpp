@@ -177,7 +177,8 @@ class Maker {
     const auto diameter = [&](std::uint32_t r) {
       return std::max(radii_[r].diameter, radii_[parent_[r]].diameter);
     };
-    std::stable_sort(child.begin(), child.end(), [&](auto a, auto b) { return diameter(a) < diameter(b); });
+    std::sort(child.begin(), child.end(),
+              [&](auto a, auto b) { return std::pair(diameter(a), a) < std::pair(diameter(b), b); });
     std::vector<CornerTriangle> triangles;
     std::vector<std::array<std::uint32_t, 2>> lines;
     std::vector<float> diameters;
@@ -188,7 +189,10 @@ class Maker {
     for (const std::uint32_t r : child) {
       const std::uint32_t count = shape_.segment ? shape_.segment : pick(random_, 5);
       for (std::uint32_t t = 0; t < count; ++t) {
-        triangles.push_back(corners(vertex_of(parent_[r]), vertex_of(r), vertex_of(t % 2 ? r : parent_[r])));
+        // In this order whatever the compiler: arguments have none.
+        const std::uint32_t a = vertex_of(parent_[r]), b = vertex_of(r),
+                            c = vertex_of(t % 2 ? r : parent_[r]);
+        triangles.push_back(corners(a, b, c));
         materials.push_back(pick_or_none(random_, shape_.materials));
         const auto& v = triangles.back().vertex;
         areas.add(to_double(positions_[v[0]]), to_double(positions_[v[1]]), to_double(positions_[v[2]]));
@@ -311,11 +315,11 @@ class Maker {
       }
     }
     if (shape_.leaf_order == LeafOrder::group) {
-      std::stable_sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
+      std::sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
         const auto d = [&](std::uint32_t leaf) {
           return distance(to_double(leaves.centres[leaf]), to_double(group.centre));
         };
-        return d(a) < d(b);
+        return std::pair(d(a), a) < std::pair(d(b), b);
       });
     }
     return group;
