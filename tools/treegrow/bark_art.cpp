@@ -70,7 +70,8 @@ Spot scaly(double u, double v, const Noise& n) {
 
 // Rings of old leaf bases, with fibres.
 Spot palm(double u, double v, const Noise& n) {
-  const double wave = v * 8 + 0.22 * n.smooth(u * 4, v * 4, 4, 4) + 0.06 * n.smooth(u * 14, v * 8, 14, 8);
+  const double wave =
+      v * 8 + 0.4 + 0.22 * n.smooth(u * 4, v * 4, 4, 4) + 0.06 * n.smooth(u * 14, v * 8, 14, 8);
   const double in_ring = wave - std::floor(wave);
   const double edge = ramp(0.0, 0.12, in_ring) * (1 - 0.55 * ramp(0.55, 1.0, in_ring));
   const double fibre = n.cloud(u * 46, v * 6, 46, 6, 3);

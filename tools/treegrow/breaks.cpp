@@ -13,7 +13,7 @@ const std::vector<BreakInfo>& break_table() {
        "branches are tubes of their own that start inside the parent, on its middle line",
        "first ring's parent is the nearer of the two parent rings that it lies between (`attach`)"},
       {laid_against, "laid-against", G::join,
-       "branches are tubes of their own that start at the parent's surface, outside it", "as free-tubes"},
+       "branches are tubes of their own that touch the parent's surface from outside", "as free-tubes"},
       {welded_forks, "welded-forks", G::join,
        "a fork is one welded surface: both arms share a saddle of vertices and half of the parent's ring "
        "each",
@@ -114,6 +114,8 @@ Breaks artist_breaks() {
 }
 
 Result<Breaks> parse_breaks(std::string_view list) {
+  if (list.empty())
+    return fail(Fault::usage, "", "--break: no name is given", "--list-breaks shows them all");
   Breaks breaks;
   std::vector<const BreakInfo*> named;
   for (const auto part : std::views::split(list, ',')) {
@@ -128,7 +130,7 @@ Result<Breaks> parse_breaks(std::string_view list) {
     if (found == table.end())
       return fail(Fault::usage, "",
                   "--break: there is no way to break a mesh called '" + std::string(name) + "'",
-                  "--list-breaks names them all");
+                  "--list-breaks shows them all");
     named.push_back(&*found);
   }
   for (const BreakInfo* info : named) {

@@ -104,7 +104,7 @@ void Grower::plant(std::uint32_t tree, const Random& seed) {
     stem.radius = tree_height_ * species_.ratio *
                   std::pow(stem.length / (tree_height_ * level.length), species_.ratio_power);
     Double3 foot = outward * (count > 1 ? species_.spread * tree_height_ * ring : 0);
-    foot += Double3{x, -species_.root_depth * tree_height_, 0};
+    foot += Double3{x, -species_.root_depth * height_, 0};
     stem.nodes = {foot};
     const double lean = species_.stem_lean * (count > 1 ? ring : 1) * random.around(1, 0.3) * k_degree;
     Bud bud;
@@ -224,7 +224,7 @@ void Grower::find_exit(Stem& stem) const {
 
 // Gives up when so many more stems, of at least two nodes each, would be too many.
 bool Grower::is_too_large(double more_stems) {
-  if (static_cast<double>(nodes_) + 2 * more_stems > static_cast<double>(k_most_nodes))
+  if (static_cast<double>(nodes_) + 2 * more_stems > static_cast<double>(growth_.most_nodes))
     skeleton_.too_large = true;
   return skeleton_.too_large;
 }
@@ -322,6 +322,7 @@ void Grower::bear_leaves(Stem& stem) {
 
 void Grower::measure() {
   skeleton_.twigs = growth_.twigs;
+  skeleton_.root_depth = species_.root_depth * height_;
   Double3 sum;
   double weight = 0;
   for (const Stem& stem : skeleton_.stems) {

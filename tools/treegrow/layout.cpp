@@ -12,23 +12,20 @@ constexpr std::uint64_t k_dither_key = 10;
 // it.
 constexpr double k_snap = 0.4;
 
-// More rings than that make more triangles than a mesh may have (treegrow.h).
-constexpr std::size_t k_most_rings = 60'000'000;
-
 class LayoutMaker {
  public:
   LayoutMaker(const Species& species, const Skeleton& skeleton, const Breaks& breaks, const Detail& detail)
       : species_(species), skeleton_(skeleton), breaks_(breaks), detail_(detail) {}
 
-  Layout run(std::int64_t leaves) {
+  Layout run(std::int64_t leaves, std::uint64_t most_triangles) {
     layout_.stems.resize(skeleton_.stems.size());
     children_.resize(skeleton_.stems.size() + 1);
     join_at_.resize(skeleton_.stems.size());
     sort_children();
     for (std::size_t i = 0; i < skeleton_.stems.size(); ++i) {
       lay_stem(i);
-      if (layout_.rings.size() <= k_most_rings) continue;
-      layout_.trunk_triangles = 2 * layout_.rings.size();  // at least; the rest need not be counted
+      if (layout_.rings.size() <= most_triangles + layout_.stems.size()) continue;
+      layout_.trunk_triangles = 2 * layout_.rings.size();  // at least
       return std::move(layout_);
     }
     share_leaves(leaves);
@@ -121,7 +118,7 @@ std::vector<double> LayoutMaker::uniform(const Stem& stem) const {
   if (stem.kind == StemKind::root) {
     rings.push_back(0);
     start = ground_parameter(stem);
-  } else if (!breaks_.has(Break::free_tubes)) {
+  } else if (!free()) {
     start = stem.exit;
   }
   const std::size_t n = segments(stem);
@@ -275,8 +272,8 @@ LeafForm leaf_form(const Breaks& breaks) {
 }
 
 Layout lay_out(const Species& species, const Skeleton& skeleton, const Breaks& breaks, const Detail& detail,
-               std::int64_t leaves) {
-  return LayoutMaker(species, skeleton, breaks, detail).run(leaves);
+               std::int64_t leaves, std::uint64_t most_triangles) {
+  return LayoutMaker(species, skeleton, breaks, detail).run(leaves, most_triangles);
 }
 
 std::uint64_t total_triangles(const Layout& layout, const Breaks& breaks) {

@@ -55,9 +55,10 @@ constexpr std::uint64_t band_triangles(std::uint32_t k) {
   return k == 2 ? 2 : 2u * k;
 }
 
-// `leaves`: the exact number wanted; negative: what the species and the detail give.
+// `leaves`: the exact number wanted; negative: what the species and the detail give. A layout that will have
+// more than `most_triangles` is left unfinished as soon as that is certain; its count says so.
 Layout lay_out(const Species& species, const Skeleton& skeleton, const Breaks& breaks, const Detail& detail,
-               std::int64_t leaves = -1);
+               std::int64_t leaves = -1, std::uint64_t most_triangles = 100'000'000);
 
 // Both parts, with what --break adds to the faces (duplicates, degenerate triangles).
 std::uint64_t total_triangles(const Layout& layout, const Breaks& breaks);

@@ -92,7 +92,8 @@ Pose LeafBuilder::pose(const Stem& stem, std::size_t index, std::uint32_t leaf, 
   const double down = f.down_angle + (f.down_angle_top - f.down_angle) * x + random.around(0, f.down_angle_v);
 
   Pose p;
-  p.base = tube_point(layout_, tubes_, index, t) + radial * (0.6 * stem_radius(species_, stem, t));
+  const TubePlace place = tube_place(layout_, tubes_, index, t);
+  p.base = place.centre + radial * (0.6 * place.radius);
   p.along = normalized(axis * std::cos(down * k_degree) + radial * std::sin(down * k_degree));
   p.along = turned_towards(p.along, -k_up, f.hang * length(cross(p.along, k_up)));
   // A blade faces along its twig, or the sky.

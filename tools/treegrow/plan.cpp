@@ -27,6 +27,7 @@ class Planner {
  public:
   explicit Planner(const Order& order) : order_(order) {
     growth_.height = order.height;
+    growth_.most_nodes = order.most_nodes;
     growth_.trees = order.breaks.has(Break::several_trees) ? 3 : 1;
   }
 
@@ -37,11 +38,10 @@ class Planner {
       return refuse("", order_.species.name + " has too many stems or triangles",
                     "make branches, splits, leaves or segments fewer; --limits shows the limits");
     if (order_.triangles == 0) return std::move(plan_);
-    if (plan_.layout.leaves > 0) {
-      share_rest_among_leaves();
-    } else {
-      search_segments();
-    }
+    // A trunk can miss the target by the step from one k to the next; its segments come in smaller change.
+    const bool leafy = plan_.layout.leaves > 0;
+    if (!leafy || static_cast<double>(plan_.layout.trunk_triangles) > 0.95 * wanted()) search_segments();
+    if (leafy) share_rest_among_leaves();
     const double off = std::abs(total() / wanted() - 1);
     if (off > k_off)
       return fail(Fault::limit, "",
@@ -61,7 +61,7 @@ class Planner {
   double wanted() const { return static_cast<double>(order_.triangles); }
 
   bool too_large() const {
-    return plan_.skeleton.too_large || total_triangles(plan_.layout, order_.breaks) > k_most_triangles;
+    return plan_.skeleton.too_large || total_triangles(plan_.layout, order_.breaks) > order_.most_triangles;
   }
 
   void attempt(Scale scale, double segments) {
@@ -71,7 +71,8 @@ class Planner {
     plan_.skeleton = grow(order_.species, growth_, order_.seed);
     plan_.layout = {};
     if (!plan_.skeleton.too_large)
-      plan_.layout = lay_out(order_.species, plan_.skeleton, order_.breaks, scale.detail(segments));
+      plan_.layout = lay_out(order_.species, plan_.skeleton, order_.breaks, scale.detail(segments), -1,
+                             order_.most_triangles);
   }
 
   // Secant steps on log triangles over log scale, kept inside the bracket that has been seen.
@@ -97,7 +98,7 @@ class Planner {
         total() / static_cast<double>(plan_.layout.trunk_triangles + plan_.layout.leaf_triangles);
     const double rest = wanted() / more - static_cast<double>(plan_.layout.trunk_triangles);
     const double leaves = std::round(std::max(0.0, rest / leaf_form(order_.breaks).triangles));
-    plan_.layout = lay_out(order_.species, plan_.skeleton, order_.breaks, scale_.detail(1),
+    plan_.layout = lay_out(order_.species, plan_.skeleton, order_.breaks, scale_.detail(segments_),
                            static_cast<std::int64_t>(leaves));
   }
 
@@ -105,15 +106,16 @@ class Planner {
   void search_segments() {
     double low = 0.25, high = 4;
     for (int i = 0; i < 16 && std::abs(total() / wanted() - 1) > k_near && !grass(); ++i) {
-      const double middle = std::sqrt(low * high);
-      plan_.layout = lay_out(order_.species, plan_.skeleton, order_.breaks, scale_.detail(middle));
-      (total() < wanted() ? low : high) = middle;
+      segments_ = std::sqrt(low * high);
+      plan_.layout = lay_out(order_.species, plan_.skeleton, order_.breaks, scale_.detail(segments_));
+      (total() < wanted() ? low : high) = segments_;
     }
   }
 
   const Order& order_;
   Growth growth_;
   Scale scale_;
+  double segments_ = 1;  // factor on top of the scale's
   Plan plan_;
 };
 

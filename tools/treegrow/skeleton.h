@@ -39,6 +39,7 @@ struct Stem {
 struct Skeleton {
   std::vector<Stem> stems;  // parents before children
   double height = 0;        // of the tallest stem's tip above the ground
+  double root_depth = 0;    // of the root rings under the ground
   Double3 crown_centre;     // where shading normals lean away from
   double leaf_weight = 0;   // sum over the stems
   bool too_large = false;   // growth was given up: what is here is a part

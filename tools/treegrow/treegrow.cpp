@@ -15,7 +15,7 @@ constexpr double k_east = 1e7, k_south = 2e7;  // of --break far-offset, m
 Placement placement_of(const Order& order, const Plan& plan) {
   Placement p;
   const double height = plan.skeleton.height;
-  const double depth = order.species.root_depth * (order.height > 0 ? order.height : order.species.height);
+  const double depth = plan.skeleton.root_depth;
   if (order.breaks.has(Break::root_at_zero)) p.offset.y = depth;
   if (order.breaks.has(Break::root_above_ground)) p.offset.y = depth + 0.1 * height;
   if (order.breaks.has(Break::far_offset)) p.offset += Double3{k_east, 0, k_south};

@@ -4,6 +4,7 @@
 #include "lib/formats/mesh.h"
 #include "lib/formats/result.h"
 #include "tools/treegrow/breaks.h"
+#include "tools/treegrow/grow.h"
 #include "tools/treegrow/layout.h"
 #include "tools/treegrow/skeleton.h"
 #include "tools/treegrow/species.h"
@@ -21,6 +22,8 @@ struct Order {
   double height = 0;            // m; 0: the species'
   std::uint64_t triangles = 0;  // 0: what the species has by itself
   Breaks breaks;                // none: the strict model
+  std::uint64_t most_nodes = k_most_nodes;          // of the skeleton
+  std::uint64_t most_triangles = k_most_triangles;  // of the mesh
 };
 
 // Skeleton and layout that meet the order: their triangles are within 2 % of what was asked for.
@@ -30,7 +33,7 @@ struct Plan {
 };
 
 // Errors: limit: a number of triangles that the species cannot be made of; refused: parameters that make more
-// than k_most_nodes nodes or k_most_triangles triangles. Cost: a few times that of growing the
+// nodes or triangles than the order allows. Cost: a few times that of growing the
 // skeleton.
 Result<Plan> make_plan(const Order& order);
 

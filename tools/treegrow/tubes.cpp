@@ -43,6 +43,7 @@ class TubeBuilder {
   bool cut_after(std::size_t ring) const;
 
   void build_stem();
+  Double3 start_point() const;
   void place_points();
   Loop build_start(std::uint32_t& truth_ring);
   Loop base_loop() const;
@@ -94,23 +95,30 @@ bool TubeBuilder::cut_after(std::size_t ring) const {
   return !opens() || (opener_[global(ring)] == k_none && opener_[global(ring - 1)] == k_none);
 }
 
+// Where the stem begins: on the middle line of its parent's tube or, laid against it, so far outside that its
+// first ring just touches the surface.
+Double3 TubeBuilder::start_point() const {
+  const TubePlace at = tube_place(layout_, tubes_, stem().parent, stem().parent_at);
+  if (!breaks_.has(Break::laid_against)) return at.centre;
+  const Double3 out = perpendicular(at.along, points_[0].along);
+  const double tilt = std::sqrt(std::max(0.0, 1 - std::pow(dot(points_[0].along, out), 2)));
+  return at.centre + out * (at.radius + points_[0].radius * tilt);
+}
+
 // Frames of all rings, moved onto the parent's tube.
 void TubeBuilder::place_points() {
   const auto rings = layout_.rings_of(current_);
   points_ = stem_points(species_, stem(), {rings.begin(), rings.end()});
+  const double least = species_.min_radius * skeleton_.height;
+  for (StemPoint& p : points_) p.radius = std::max(p.radius, least);
   if (stem().kind == StemKind::root) {  // a root ring lies flat
     points_[0].along = k_up;
     points_[0].side = perpendicular(k_up, points_[0].side);
     points_[0].up = cross(points_[0].along, points_[0].side);
   } else {
-    tubes_.shift[current_] =
-        tube_point(layout_, tubes_, stem().parent, stem().parent_at) - stem_position(stem(), 0);
+    tubes_.shift[current_] = start_point() - stem_position(stem(), 0);
   }
-  const double least = species_.min_radius * skeleton_.height;
-  for (StemPoint& p : points_) {
-    p.centre += tubes_.shift[current_];
-    p.radius = std::max(p.radius, least);
-  }
+  for (StemPoint& p : points_) p.centre += tubes_.shift[current_];
   double mean = 0;
   for (const StemPoint& p : points_) mean += p.radius / static_cast<double>(points_.size());
   const double trunk = species_.ratio * skeleton_.height;
@@ -170,7 +178,8 @@ Loop TubeBuilder::add_ring(std::size_t ring) {
     if (breaks_.has(Break::rough) && k > 2) {
       offset *= rough.around(1, k_rough);
       offset += points_[ring].along * (points_[ring].radius * rough.around(0, k_rough));
-      if (ring == 0) offset.y = std::min(offset.y, 0.0);  // nothing of a root ring above where it lies
+      if (ring == 0 && stem().kind == StemKind::root)
+        offset.y = std::min(offset.y, 0.0);  // nothing of a root ring above where it lies
     }
     const std::uint32_t v = surface_.vertex(points_[ring].centre + offset, ring_normal(ring, angle));
     if (c == 0) first = v;
@@ -388,7 +397,10 @@ Loop TubeBuilder::build_start(std::uint32_t& truth_ring) {
 
 void TubeBuilder::build_stem() {
   place_points();
-  for (std::size_t r = 0; r < own().count; ++r) tubes_.centres[global(r)] = points_[r].centre;
+  for (std::size_t r = 0; r < own().count; ++r) {
+    tubes_.centres[global(r)] = points_[r].centre;
+    tubes_.radii[global(r)] = points_[r].radius;
+  }
   loose_ = stem().random.fork(k_loose_key);
   turned_ = 0;
   std::uint32_t truth_ring = k_none;
@@ -421,6 +433,7 @@ void TubeBuilder::build_stem() {
 Tubes TubeBuilder::run() {
   const std::size_t rings = layout_.rings.size(), stems = skeleton_.stems.size();
   tubes_.centres.resize(rings);
+  tubes_.radii.resize(rings);
   tubes_.first_vertex.resize(rings);
   tubes_.shift.resize(stems);
   truth_ring_.resize(rings);
@@ -441,15 +454,16 @@ Tubes build_tubes(const Species& species, const Skeleton& skeleton, const Layout
   return TubeBuilder(species, skeleton, layout, breaks, surface, truth).run();
 }
 
-Double3 tube_point(const Layout& layout, const Tubes& tubes, std::size_t stem, double t) {
+TubePlace tube_place(const Layout& layout, const Tubes& tubes, std::size_t stem, double t) {
   const auto rings = layout.rings_of(stem);
+  const auto last = static_cast<std::ptrdiff_t>(rings.size()) - 1;
   const auto above =
-      std::clamp<std::ptrdiff_t>(std::lower_bound(rings.begin(), rings.end(), t) - rings.begin(), 1,
-                                 static_cast<std::ptrdiff_t>(rings.size()) - 1);
+      std::clamp<std::ptrdiff_t>(std::lower_bound(rings.begin(), rings.end(), t) - rings.begin(), 1, last);
   const auto i = static_cast<std::size_t>(above);
   const double u = std::clamp((t - rings[i - 1]) / (rings[i] - rings[i - 1]), 0.0, 1.0);
-  const std::size_t first = layout.stems[stem].first;
-  return tubes.centres[first + i - 1] * (1 - u) + tubes.centres[first + i] * u;
+  const std::size_t b = layout.stems[stem].first + i, a = b - 1;
+  return {tubes.centres[a] * (1 - u) + tubes.centres[b] * u, normalized(tubes.centres[b] - tubes.centres[a]),
+          tubes.radii[a] * (1 - u) + tubes.radii[b] * u};
 }
 
 }  // namespace copse::grow
