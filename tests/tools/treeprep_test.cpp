@@ -225,9 +225,9 @@ TEST_F(Treeprep, ReportsWhatItFoundAndHowWrongItIs) {
                                          "--depfile", folder_.file("r.d")});
   ASSERT_EQ(o.status, 0) << o.err;
   const std::string json = read_text(folder_.file("r.json"));
-  for (const char* part :
-       {"copse.report/1", "\"treeprep\"", "\"read\"", "\"classify\"", "\"skeleton\"", "\"leaf groups\"",
-        "cylinder-surface of local radius", "trunk triangles unexplained", "what was found", "trunk and leaves, and why"}) {
+  for (const char* part : {"copse.report/1", "\"treeprep\"", "\"read\"", "\"classify\"", "\"skeleton\"",
+                           "\"leaf groups\"", "cylinder-surface of local radius",
+                           "trunk triangles unexplained", "what was found", "trunk and leaves, and why"}) {
     EXPECT_NE(json.find(part), std::string::npos) << part;
   }
   const std::string html = read_text(folder_.file("r.html"));

@@ -5,7 +5,7 @@
 
 namespace copse {
 
-// --- welding
+// welding
 // ------------------------------------------------------------------------------------------------- Positions
 // that a generator computed twice (seams: angle 0 and angle 2 pi) or that a file rounded twice differ by a
 // few units of the last stored digit, never by a visible share of the edges that meet there.
@@ -21,8 +21,7 @@ inline constexpr double k_weld_float_noise = 1.0 / (1 << 22);
 // ... but never more than this share of the diagonal, for meshes far from the origin stored in more digits.
 inline constexpr double k_weld_noise_of_diagonal = 1.0 / (1 << 23);
 
-// --- reading rings
-// -------------------------------------------------------------------------------------------
+// reading rings
 
 // Triangles, as multiples of the surface's own, that attempts to read it may touch before it counts as no
 // tree of rings. One true start is enough; a box has three readings, each found from both ends.
@@ -33,12 +32,13 @@ inline constexpr std::size_t k_ring_attempts = 16;
 inline constexpr double k_lid_smooth_cosine = 0.8660254037844387;
 // Axis length over mean diameter below which concentric rings are a flat sheet and no tube.
 inline constexpr double k_flat_slenderness = 1e-3;
-// Radii between a ring's centre and the single vertex beyond it, up to which that vertex is the centre of a cap. Caps
-// are flat, or pulled up a little; the point that a twig runs out into is as long as a segment.
+// Mean cosine between rungs and axis by which a strip may be read less squarely, if that makes it longer.
+inline constexpr double k_about_square = 0.05;
+// Radii between a ring's centre and the single vertex beyond it, up to which that vertex is the centre of a
+// cap. Caps are flat, or pulled up a little; the point that a twig runs out into is as long as a segment.
 inline constexpr double k_lid_height = 0.125;
 
-// --- joining and attaching limbs
-// -----------------------------------------------------------------------------------
+// joining and attaching limbs
 
 // Share of the radius by which two rings that are one may differ in centre and, of the diameter, in diameter.
 // Files with six decimals round a twig of 5 mm at 2e-4 of its radius; segments are longer than a radius.
