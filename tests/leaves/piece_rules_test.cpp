@@ -1,0 +1,115 @@
+#include "lib/analysis/leaves/piece_rules.h"
+
+#include "lib/analysis/trunk/weld.h"
+#include "tests/leaves/shapes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+using shapes::Builder;
+using shapes::line;
+using testing::HasSubstr;
+
+// Kind and reason of every piece; all parts have one key unless their verdicts differ.
+struct Ruled {
+  std::vector<PartClass> kind;
+  std::vector<std::string> reason;
+};
+Ruled rule(const Mesh& mesh, std::vector<PartVerdict> verdicts = {}) {
+  if (verdicts.empty()) verdicts.resize(mesh.parts.size());
+  std::vector<std::uint32_t> keys;
+  for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) keys.push_back(p);
+  const std::vector<std::uint32_t> welded = weld(mesh.positions, 0.0);
+  const PieceScan scan(mesh, welded, edge_pieces(mesh.triangles, welded, mesh.part_of, keys), verdicts);
+  const PieceClasses classes = classify_pieces_by_rule(mesh, welded, scan, verdicts);
+  Ruled out{classes.kind, {}};
+  for (const std::uint32_t r : classes.reason) out.reason.push_back(classes.reasons[r]);
+  return out;
+}
+
+TEST(PieceRules, TheGroundUnderATreeIsNoLeaf) {
+  Builder b;
+  b.card({0, 0, 0}, {3, 0, 0}, {0, 0, 3});
+  b.tube(line({0, 0.1, 0}, {0, 4, 0}, 4), 0.2, 6);
+  const Ruled r = rule(b.mesh);
+  EXPECT_EQ(r.kind[0], PartClass::trunk);
+  EXPECT_THAT(r.reason[0], HasSubstr("ground plate"));
+  Builder alone;
+  alone.card({0, 0, 0}, {3, 0, 0}, {0, 0, 3});
+  EXPECT_EQ(rule(alone.mesh).kind[0], PartClass::leaf);
+}
+
+TEST(PieceRules, TiersRoundATrunkAreLeavesAlthoughTheyReachDown) {
+  Builder b;
+  b.tube(line({0, 0, 0}, {0, 5, 0}, 5), 0.2, 8);
+  for (int i = 0; i < 3; ++i) b.ball({0, 2 + i * 1.2, 0}, 1.5 - i * 0.4, 0.5);
+  const Ruled r = rule(b.mesh);
+  EXPECT_THAT(r.kind,
+              testing::ElementsAre(PartClass::trunk, PartClass::leaf, PartClass::leaf, PartClass::leaf));
+}
+
+TEST(PieceRules, OfAPileOnlyTheLowestNarrowBlobIsTrunk) {
+  Builder b;
+  b.ball({0, 0.5, 0}, 0.5);
+  b.ball({0, 1.8, 0}, 0.9);
+  b.ball({0, 3.2, 0}, 1.2);
+  const Ruled r = rule(b.mesh);
+  EXPECT_THAT(r.kind, testing::ElementsAre(PartClass::trunk, PartClass::leaf, PartClass::leaf));
+  EXPECT_THAT(r.reason[0], HasSubstr("carries a wider one"));
+}
+
+TEST(PieceRules, AForestOfBlobTreesHasATrunkEach) {
+  Builder b;
+  for (int i = 0; i < 5; ++i) {
+    b.ball({i * 4.0, 0.5, 0}, 0.5, 1, 5, 6);
+    b.ball({i * 4.0, 2, 0}, 1.2);
+  }
+  const Ruled r = rule(b.mesh);
+  for (std::size_t p = 0; p < 10; ++p) EXPECT_EQ(r.kind[p], p % 2 ? PartClass::leaf : PartClass::trunk) << p;
+}
+
+TEST(PieceRules, ColourTellsBlobsApart) {
+  Builder b;
+  b.part("", b.material("m1"));
+  b.ball({0, 1, 0}, 1);
+  b.part("", b.material("m2"));
+  b.ball({5, 1, 0}, 1);
+  b.mesh.materials[0].diffuse = {0.35f, 0.2f, 0.1f};
+  b.mesh.materials[1].diffuse = {0.2f, 0.5f, 0.1f};
+  const Ruled r = rule(b.mesh);
+  EXPECT_THAT(r.kind, testing::ElementsAre(PartClass::trunk, PartClass::leaf));
+}
+
+TEST(PieceRules, ABlobThatIsAllThereIsIsTrunkUnlessItIsNamedLeaf) {
+  Builder b;
+  b.ball({0, 1, 0}, 1);
+  EXPECT_EQ(rule(b.mesh).kind[0], PartClass::trunk);
+  EXPECT_EQ(rule(b.mesh, {{NameClass::leaf, Binding::whole, "named"}}).kind[0], PartClass::leaf);
+}
+
+TEST(PieceRules, InAMeshThatIsAllBarkAFewSheetsAreBarkAndManyAreLeaves) {
+  const PartVerdict bark{NameClass::trunk, Binding::whole, "material 'bark' says bark"};
+  for (const int cards : {3, 20}) {
+    Builder b;
+    b.tube(line({0, 0, 0}, {0, 5, 0}, 5), 0.2, 8);
+    for (int i = 0; i < cards; ++i) b.card({1, i * 0.25, 0}, {0.1, 0, 0}, {0, 0.1, 0});
+    const Ruled r = rule(b.mesh, {bark});
+    EXPECT_EQ(r.kind[1], cards == 3 ? PartClass::trunk : PartClass::leaf);
+  }
+}
+
+TEST(PieceRules, ReasonsAreSharedNotRepeated) {
+  Builder b;
+  for (int i = 0; i < 1000; ++i) b.card({i * 3.0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  std::vector<PartVerdict> verdicts(1);
+  const std::vector<std::uint32_t> welded = weld(b.mesh.positions, 0.0), keys{0};
+  const PieceScan scan(b.mesh, welded, edge_pieces(b.mesh.triangles, welded, b.mesh.part_of, keys), verdicts);
+  EXPECT_THAT(classify_pieces_by_rule(b.mesh, welded, scan, verdicts).reasons,
+              testing::ElementsAre("a flat card of 2 triangles, one of 1000 alike"));
+}
+
+}  // namespace
+}  // namespace copse
