@@ -313,6 +313,16 @@ TEST(GltfMesh, AnAccessorWithoutDataCannotTakeMemoryForNothing) {
   EXPECT_NE(maker.refusal().find("accessors[0]: 100000 elements without a buffer view"), std::string::npos);
 }
 
+TEST(GltfMesh, APrimitiveWithoutVerticesIsNoTriangles) {
+  GltfMaker maker;
+  const Json none = {{"componentType", 5126}, {"count", 0}, {"type", "VEC3"}};
+  const int empty = maker.add("accessors", none);
+  maker.show({{"attributes", {{"POSITION", empty}, {"NORMAL", empty}}}});
+  const Import m = maker.import();
+  EXPECT_TRUE(m.mesh.positions.empty());
+  EXPECT_TRUE(m.mesh.triangles.empty());
+}
+
 TEST(GltfMesh, MorphTargetsAndVertexColoursAreLeftOutWithAWarning) {
   GltfMaker maker;
   const int positions = maker.triangle();

@@ -192,6 +192,13 @@ TEST(Obj, AFileThatIsSomethingElseIsRefused) {
             "true format");
 }
 
+TEST(Obj, AnUnknownStatementOverSeveralLinesIsQuotedWhole) {
+  EXPECT_EQ(refusal("wat\\\n now\nso\\\n on\n"),
+            "import: error: tree: line 1: 'wat' is not a statement of an OBJ file; give the file the "
+            "extension of its "
+            "true format");
+}
+
 TEST(Obj, AnEmptyMeshIsAMeshWithoutTriangles) {
   const Import m = obj("# nothing\n");
   EXPECT_TRUE(m.mesh.positions.empty());

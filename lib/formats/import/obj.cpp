@@ -140,8 +140,7 @@ class ObjReader {
       if (!good) return false;
     }
     if (!known_ && mesh_.positions.empty() && unknown_line_ != 0)
-      return builder_.refuse_at({"line", unknown_line_},
-                                fmt::format("{} is not a statement of an OBJ file", in_quotes(unknown_)),
+      return builder_.refuse_at({"line", unknown_line_}, unknown_ + " is not a statement of an OBJ file",
                                 "give the file the extension of its true format");
     return true;
   }
@@ -269,7 +268,7 @@ class ObjReader {
       known_ = was_known;
       if (unknown_line_ == 0) {
         unknown_line_ = place_.number;
-        unknown_ = word;
+        unknown_ = in_quotes(word);  // the line may not outlive this call
       }
       builder_.notes.add("unknown statements skipped",
                          fmt::format("{}: {}", to_text(place_), in_quotes(word)));
@@ -336,7 +335,7 @@ class ObjReader {
   std::uint32_t part_ = k_none;  // of the current object, group and material; k_none: not looked up yet
   std::vector<Corner> corners_;
   bool known_ = false;
-  std::string_view unknown_;
+  std::string unknown_;
   std::uint64_t unknown_line_ = 0;
 };
 

@@ -175,7 +175,7 @@ bool PrimitiveReader::positions(const Source& source, std::uint32_t& base) {
   std::vector<Double3>& out = builder_.mesh.positions;
   const std::size_t next = out.size();
   if (!place_attribute(source, "POSITION", 0, next, positions_, base)) return false;
-  if (base != next) return true;
+  if (base != next || source.vertices == 0) return true;
   out.resize(next + source.vertices);
   if (!numbers(source, "POSITION", 3,
                std::span<double>(&out.data()[next].x, std::size_t{source.vertices} * 3)))
@@ -196,7 +196,7 @@ bool PrimitiveReader::normals(const Source& source, std::uint32_t& base) {
   std::vector<Float3>& out = builder_.mesh.normals;
   const std::size_t next = out.size();
   if (!place_attribute(source, "NORMAL", 0, next, normals_, base)) return false;
-  if (base != next) return true;
+  if (base != next || source.vertices == 0) return true;
   out.resize(next + source.vertices);
   if (!numbers(source, "NORMAL", 3, std::span<float>(&out.data()[next].x, std::size_t{source.vertices} * 3)))
     return false;
@@ -222,7 +222,7 @@ bool PrimitiveReader::texcoords(const Source& source, std::uint32_t material, st
   std::vector<Float2>& out = builder_.mesh.texcoords;
   const std::size_t next = out.size();
   if (!place_attribute(source, name, variant, next, texcoords_, base)) return false;
-  if (base != next) return true;
+  if (base != next || source.vertices == 0) return true;
   out.resize(next + source.vertices);
   if (!numbers(source, name, 2, std::span<float>(&out.data()[next].x, std::size_t{source.vertices} * 2)))
     return false;
