@@ -196,21 +196,45 @@ bool BandGrowth::is_point(std::uint32_t v, const Fan& fan) {
   return degree_[v] == fan.link.size() && degrees == 5 * fan.link.size() && continues_behind(fan, 2);
 }
 
-void BandGrowth::start_at_points() {
-  std::vector<std::uint32_t> first(surface_.positions.size(), k_none);
-  for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
-    for (const std::uint32_t v : triangles_[t]) first[v] = std::min(first[v], t);
-  }
-  Fan fan;
-  for (std::uint32_t v = 0; v < first.size(); ++v) {
-    if (!unread(first[v]) || !collect_fan(v, first[v], fan) || !is_point(v, fan)) continue;
-    bands_.add(fan.link, std::span(&v, 1), fan.triangles);
-    for (const std::uint32_t t : fan.triangles) claimed_[t] = 1;
-    for (std::size_t i = 0; i < fan.link.size(); ++i) {
-      push(fan.triangles[i], fan.link[i], fan.link[(i + 1) % fan.link.size()], limit_after(fan.link.size()));
-    }
+void BandGrowth::read_fan(std::uint32_t v, const Fan& fan) {
+  bands_.add(fan.link, std::span(&v, 1), fan.triangles);
+  for (const std::uint32_t t : fan.triangles) claimed_[t] = 1;
+  for (std::size_t i = 0; i < fan.link.size(); ++i) {
+    push(fan.triangles[i], fan.link[i], fan.link[(i + 1) % fan.link.size()], limit_after(fan.link.size()));
   }
   committed_at_ = walks_;
+}
+
+// The first triangle that is not read at each vertex.
+std::vector<std::uint32_t> BandGrowth::first_unread() const {
+  std::vector<std::uint32_t> first(surface_.positions.size(), k_none);
+  for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
+    if (!unread(t)) continue;
+    for (const std::uint32_t v : triangles_[t]) first[v] = std::min(first[v], t);
+  }
+  return first;
+}
+
+void BandGrowth::start_at_points() {
+  const std::vector<std::uint32_t> first = first_unread();
+  Fan fan;
+  for (std::uint32_t v = 0; v < first.size(); ++v) {
+    if (unread(first[v]) && collect_fan(v, first[v], fan) && is_point(v, fan)) read_fan(v, fan);
+  }
+}
+
+void BandGrowth::close_fans() {
+  const std::vector<std::uint32_t> first = first_unread();
+  Fan fan;
+  for (std::uint32_t v = 0; v < first.size(); ++v) {
+    if (!unread(first[v]) || !collect_fan(v, first[v], fan)) continue;
+    std::size_t bordered = 0;
+    for (std::size_t i = 0; i < fan.link.size(); ++i) {
+      const std::uint32_t n = beyond(fan.triangles[i], fan.link[i], fan.link[(i + 1) % fan.link.size()]);
+      bordered += n != k_none && !unread(n);
+    }
+    if (2 * bordered >= fan.link.size()) read_fan(v, fan);
+  }
 }
 
 void BandGrowth::start_at_bands(std::uint32_t first) {
@@ -297,36 +321,37 @@ void BandGrowth::fill(std::uint32_t ring) {
   }
 }
 
+// Whether some of the ring's edges, but not all, have something unread on their far side.
+bool BandGrowth::is_collar(std::uint32_t ring) {
+  const std::uint32_t band = ring / 2;
+  ++stamp_;
+  is_simple(bands_.ring(ring));  // marks its vertices
+  std::size_t open = 0, border = 0;
+  for (std::uint32_t i = bands_.first_triangle[band]; i < bands_.first_triangle[band + 1]; ++i) {
+    const std::uint32_t t = bands_.triangles[i];
+    for (std::size_t e = 0; e < 3; ++e) {
+      if (mark_[triangles_[t][e]] != stamp_ || mark_[triangles_[t][(e + 1) % 3]] != stamp_) continue;
+      open += unread(across_[t][e]), border += across_[t][e] == k_none;
+    }
+  }
+  return open > 0 && border == 0;
+}
+
 void BandGrowth::fill_collars() {
   struct Collar {
-    double girth;
+    double radius;
     std::uint32_t ring;
   };
   std::vector<Collar> collars;
-  for (std::uint32_t b = 0; b < bands_.count(); ++b) {
-    for (const std::uint32_t r : {2 * b, 2 * b + 1}) {
-      const std::span<const std::uint32_t> ring = bands_.ring(r);
-      if (ring.size() < 3 || ring.size() > k_widest_collar) continue;
-      std::size_t open = 0, border = 0;
-      ++stamp_;
-      is_simple(ring);  // marks it
-      for (std::uint32_t j = bands_.first_triangle[b]; j < bands_.first_triangle[b + 1]; ++j) {
-        const Triangle& t = triangles_[bands_.triangles[j]];
-        for (std::size_t e = 0; e < 3; ++e) {
-          if (mark_[t[e]] != stamp_ || mark_[t[(e + 1) % 3]] != stamp_) continue;
-          const std::uint32_t n = across_[bands_.triangles[j]][e];
-          open += unread(n), border += n == k_none;
-        }
-      }
-      if (open > 0 && open + border < 2 * ring.size() && border < ring.size()) {
-        collars.push_back({ring_circle(surface_.positions, ring).radius * static_cast<double>(1), r});
-      }
+  for (std::uint32_t r = 0; r < 2 * bands_.count(); ++r) {
+    const std::size_t k = bands_.ring(r).size();
+    if (k >= 3 && k <= k_widest_collar && is_collar(r)) {
+      collars.push_back({ring_circle(surface_.positions, bands_.ring(r)).radius, r});
     }
   }
-  std::ranges::sort(collars, [](const Collar& a, const Collar& b) {
-    return a.girth != b.girth ? a.girth < b.girth : a.ring < b.ring;
-  });
+  std::ranges::stable_sort(collars, {}, &Collar::radius);
   for (const Collar& c : collars) {
+    if (!is_collar(c.ring)) continue;  // filling another one has led past it
     fill(c.ring);
     committed_at_ = walks_;
     read_regular();

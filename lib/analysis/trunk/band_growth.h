@@ -29,6 +29,8 @@ class BandGrowth {
   // k_point_angle, and blunter ones behind which two more rings of the same size follow).
   void start_at_borders();
   void start_at_points();
+  // Reads fans round a vertex of which half or more is bordered by what is read: blunt points, and caps.
+  void close_fans();
   // Fronts: the rings of bands first .. count() - 1, which another method has found.
   void start_at_bands(std::uint32_t first);
 
@@ -79,7 +81,10 @@ class BandGrowth {
   void read_regular();
   bool collect_fan(std::uint32_t v, std::uint32_t t, Fan& fan);
   bool is_point(std::uint32_t v, const Fan& fan);
+  void read_fan(std::uint32_t v, const Fan& fan);
+  std::vector<std::uint32_t> first_unread() const;
   bool continues_behind(const Fan& fan, int rings);
+  bool is_collar(std::uint32_t ring);
   void fill(std::uint32_t ring);
 
   const Surface& surface_;

@@ -27,6 +27,7 @@ Bands read_bands(const Surface& surface, bool in_order) {
     growth.start_at_bands(0);
     growth.run(false);
     growth.fill_collars();
+    growth.close_fans();
     growth.start_at_borders();
     growth.run(true);
   }

@@ -132,9 +132,9 @@ class SiteFinder {
   }
 
   void number() {
-    std::vector<std::uint32_t> number(g_.nodes() + s_.triangles.size(), k_none);
+    number_.assign(g_.nodes() + s_.triangles.size(), k_none);
     const auto site = [&](std::uint32_t x) {
-      std::uint32_t& id = number[sites_.find(x)];
+      std::uint32_t& id = number_[sites_.find(x)];
       if (id == k_none) id = g_.sites++;
       return id;
     };
@@ -146,13 +146,29 @@ class SiteFinder {
     for (std::uint32_t t = 0; t < s_.triangles.size(); ++t) {
       if (loose(t)) patch.emplace_back(site(element(t)), t);
     }
+    g_.is_open.assign(g_.sites, 0);
+    for (std::uint32_t t = 0; t < s_.triangles.size(); ++t) {
+      for (std::size_t e = 0; e < 3; ++e) {
+        if (s_.across[t][e] == k_none) mark_open(t, s_.triangles[t][e], s_.triangles[t][(e + 1) % 3]);
+      }
+    }
     g_.ends = make_lists(ends, g_.sites);
     g_.patch = make_lists(patch, g_.sites);
+  }
+
+  void mark_open(std::uint32_t t, std::uint32_t a, std::uint32_t b) {
+    if (loose(t)) {
+      g_.is_open[number_[sites_.find(element(t))]] = 1;
+    } else if (const std::uint32_t n = node_at(bands_.band_of[t], a, b);
+               n != k_none && g_.site_of[n] != k_none) {
+      g_.is_open[g_.site_of[n]] = 1;
+    }
   }
 
   const Surface& s_;
   const Bands& bands_;
   RingGraph& g_;
+  std::vector<std::uint32_t> number_;  // one an element that stands for its site
   UnionFind sites_, clusters_;
   std::vector<std::uint8_t> meets_;
 };

@@ -23,6 +23,7 @@ struct RingGraph {
   std::vector<std::uint32_t> site_of;  // one a node: its site or k_none
   Lists ends;                          // one a site: its nodes
   Lists patch;                         // one a site: its triangles
+  std::vector<std::uint8_t> is_open;   // one a site: whether a border of the surface runs through it
   std::uint32_t sites = 0;
 
   std::uint32_t nodes() const { return static_cast<std::uint32_t>(ring.size()); }

@@ -50,17 +50,18 @@ class RingWalk {
     return distance(g_.circle[point].centre, g_.circle[node].centre) < k_cap_height * g_.circle[node].radius;
   }
 
-  // 2: nothing but a border or a cap beyond this ring; 1: a point; 0: it is not the end of a limb.
-  int freedom(std::uint32_t node) const {
-    if (is_point(node)) return 0;
-    if (g_.site_of[node] != k_none) return g_.ends[g_.site_of[node]].size() == 1 ? 2 : 0;
-    if (g_.bands_of[node].size() == 1) return 2;
-    int best = 0;
+  // How well a ring may be the base of the whole: 0 at an end that is open or capped, or lies with others at
+  // a border; less at a pointed end; least where the limb goes on.
+  double root_penalty(std::uint32_t node) const {
+    if (g_.site_of[node] != k_none)
+      return g_.is_open[g_.site_of[node]] || g_.ends[g_.site_of[node]].size() == 1 ? 0 : 2;
+    if (g_.bands_of[node].size() == 1) return 0;
+    double least = 2;
     for (const std::uint32_t b : g_.bands_of[node]) {
       const std::uint32_t other = g_.across(node, b);
-      if (is_point(other)) best = std::max(best, is_cap(other, node) ? 2 : 1);
+      if (is_point(other)) least = std::min(least, is_cap(other, node) ? 0 : 0.5);
     }
-    return best;
+    return least;
   }
 
   std::uint32_t find_root() const {
@@ -73,7 +74,8 @@ class RingWalk {
     for (std::uint32_t n = 0; n < g_.nodes(); ++n) {
       if (is_point(n)) continue;
       const RingCircle& c = g_.circle[n];
-      const double score = 2 * freedom(n) + c.radius / widest - k_lowness * (c.centre.y - box.min.y) / height;
+      const double score =
+          c.radius / widest - k_lowness * (c.centre.y - box.min.y) / height - root_penalty(n);
       if (score > best_score) best_score = score, best = n;
     }
     return best;

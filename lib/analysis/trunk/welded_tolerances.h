@@ -121,9 +121,9 @@ inline constexpr std::size_t k_flow_triangles_at_least = 2000;
 // Share of the triangles that lie between rings from which on the rings are taken without trying anything
 // else.
 inline constexpr double k_rings_suffice = 0.9;
-// How much worse the rings' fit may be than a surface skeleton's and still be taken: rings are what the
-// artist made.
-inline constexpr double k_rings_may_cost = 1.5;
+// Share of a surface skeleton's cost (see Fit) that the rings may cost at most to be taken where less of the surface
+// lies between rings: then some are rings by chance.
+inline constexpr double k_rings_may_cost = 0.9;
 // Cost (see Fit) above which levels are doubted, and how much less another skeleton must cost to be taken
 // instead.
 inline constexpr double k_poor_fit = 0.02;
