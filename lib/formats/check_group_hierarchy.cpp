@@ -34,7 +34,7 @@ bool walk(const Check& check, Link&& link) {
     const bool bottom = nodes[i].group != k_none;
     if (nodes[i].skip <= i || nodes[i].skip > end || bottom != (nodes[i].skip == i + 1)) {
       check.add("LGHI", i, "skips to where it cannot",
-                fmt::format("{}, below a node that ends at {}", nodes[i].skip, end));
+                [&] { return fmt::format("{}, below a node that ends at {}", nodes[i].skip, end); });
       return false;
     }
     if (!above.empty()) link(above.back(), i);
@@ -48,7 +48,7 @@ bool check_bottom(const Check& check) {
   std::vector<bool> seen(check.counts().groups);
   bool sound = true;
   const auto bad = [&](std::size_t i, const char* kind, std::uint32_t group) {
-    check.add("LGHI", i, kind, fmt::format("{} of {}", group, seen.size()));
+    check.add("LGHI", i, kind, [&] { return fmt::format("{} of {}", group, seen.size()); });
     sound = false;
   };
   std::size_t found = 0;
@@ -65,7 +65,7 @@ bool check_bottom(const Check& check) {
   }
   if (sound && found != seen.size()) {
     check.add("LGHI", Finding::k_no_element, "not every leaf group is there",
-              fmt::format("{} of {}", found, seen.size()));
+              [&] { return fmt::format("{} of {}", found, seen.size()); });
   }
   return sound;
 }
@@ -81,7 +81,8 @@ void check_group_hierarchy(const Check& check) {
     if (!numbers ||
         sphere_contains(nodes[parent].centre, nodes[parent].radius, nodes[child].centre, nodes[child].radius))
       return;
-    check.add("LGHI", parent, "a node's sphere sticks out of the one above", fmt::format("node {}", child));
+    check.add("LGHI", parent, "a node's sphere sticks out of the one above",
+              [&] { return fmt::format("node {}", child); });
   });
   const auto& groups = check.tree.leaves.groups;
   if (!numbers || !bottom || groups.empty()) return;
@@ -91,7 +92,7 @@ void check_group_hierarchy(const Check& check) {
     if (!is_finite(group.centre) || !(group.radius >= 0)) continue;  // said already
     if (sphere_contains(nodes[i].centre, nodes[i].radius, group.centre, group.radius)) continue;
     check.add("LGHI", i, "a leaf group's sphere sticks out of its node's",
-              fmt::format("group {}", nodes[i].group));
+              [&] { return fmt::format("group {}", nodes[i].group); });
   }
 }
 

@@ -19,7 +19,7 @@ bool check_partition(const Check& check) {
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (groups[g].first != next) {
       check.add("LGRP", g, "does not begin where the group before ends",
-                fmt::format("{}, expected {}", groups[g].first, next));
+                [&] { return fmt::format("{}, expected {}", groups[g].first, next); });
       sound = false;
     }
     if (groups[g].count == 0) {
@@ -31,7 +31,7 @@ bool check_partition(const Check& check) {
   // A tree without leaf geometry may still say how many leaves a program should invent.
   if (sound && !groups.empty() && check.counts().leaves > 0 && next != check.counts().leaves) {
     check.add("LGRP", Finding::k_no_element, "the groups do not hold every leaf once",
-              fmt::format("{} of {}", next, check.counts().leaves));
+              [&] { return fmt::format("{} of {}", next, check.counts().leaves); });
     sound = false;
   }
   return sound;
@@ -44,7 +44,7 @@ bool check_permutation(const Check& check) {
   bool sound = true;
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (seen[order[i]]) {
-      check.add("LORD", i, "a leaf that is there twice", fmt::format("{}", order[i]));
+      check.add("LORD", i, "a leaf that is there twice", [&] { return fmt::format("{}", order[i]); });
       sound = false;
     }
     seen[order[i]] = true;
@@ -62,7 +62,8 @@ bool check_spheres(const Check& check) {
       sound = false;
     }
     if (!std::isfinite(group.mean_area) || group.mean_area < 0)
-      check.add("LGRP", g, "the mean area is not finite or negative", fmt::format("{}", group.mean_area));
+      check.add("LGRP", g, "the mean area is not finite or negative",
+                [&] { return fmt::format("{}", group.mean_area); });
   }
   return sound;
 }
@@ -114,14 +115,16 @@ Area check_group_leaves(const Check& check) {
     const std::uint32_t g = group_of[leaf];
     sums[g] += scan.area(leaf);
     if (scan.inside(groups[g], leaf)) continue;
-    check.add("LGRP", g, "a leaf sticks out of its group's sphere", fmt::format("leaf {}", leaf));
+    check.add("LGRP", g, "a leaf sticks out of its group's sphere",
+              [&] { return fmt::format("leaf {}", leaf); });
   }
   Area total;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     total += sums[g];
     if (mean_matches(groups[g].mean_area, 1.0 / groups[g].count * sums[g])) continue;
-    check.add("LGRP", g, "the mean area is wrong",
-              fmt::format("{}, expected {}", groups[g].mean_area, sums[g].value / groups[g].count));
+    check.add("LGRP", g, "the mean area is wrong", [&] {
+      return fmt::format("{}, expected {}", groups[g].mean_area, sums[g].value / groups[g].count);
+    });
   }
   return total;
 }
@@ -138,7 +141,7 @@ void check_mean_leaf_area(const Check& check, const Area& sum) {
   const float mean = check.head.header.mean_leaf_area;
   if (mean_matches(mean, 1 / n * sum)) return;
   check.add("HEAD", Finding::k_no_element, "the mean leaf area is wrong",
-            fmt::format("{}, expected {}", mean, sum.value / n));
+            [&] { return fmt::format("{}, expected {}", mean, sum.value / n); });
 }
 
 // Nearest to the group's centre first (erratum E10), as far as rounding lets one tell.
@@ -153,7 +156,7 @@ void check_group_order(const Check& check) {
       ends.grow(centre), ends.grow(group.centre);
       if (d < before - length_tolerance(before, largest_coordinate(ends))) {
         check.add("LORD", i, "a leaf nearer to its group's centre than the one before",
-                  fmt::format("{} after {}", d, before));
+                  [&] { return fmt::format("{} after {}", d, before); });
       }
       before = std::max(before, d);
     }

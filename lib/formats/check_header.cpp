@@ -26,14 +26,14 @@ bool check_box(const Check& check, const char* which, const FloatBox& box) {
   if (box == FloatBox{}) return true;
   if (is_finite(box.min) && is_finite(box.max) && !box.empty()) return true;
   check.add("HEAD", Finding::k_no_element, "neither a finite box nor the empty one",
-            fmt::format("{}: {}", which, text(box)));
+            [&] { return fmt::format("{}: {}", which, text(box)); });
   return false;
 }
 
 void check_number(const Check& check, const char* which, float value) {
   if (std::isfinite(value) && value >= 0) return;
   check.add("HEAD", Finding::k_no_element, "not a finite number of 0 or more",
-            fmt::format("{}: {}", which, value));
+            [&] { return fmt::format("{}: {}", which, value); });
 }
 
 void check_material(const Check& check, std::size_t index, const Material& m) {
@@ -44,31 +44,31 @@ void check_material(const Check& check, std::size_t index, const Material& m) {
                                       m.mean_colour.y, m.mean_colour.z, m.alpha_coverage};
   for (const float v : numbers) {
     if (!(std::isfinite(v) && v >= 0)) {
-      check.add("MATL", index, "not a finite number of 0 or more", fmt::format("{}", v));
+      check.add("MATL", index, "not a finite number of 0 or more", [&] { return fmt::format("{}", v); });
       break;
     }
   }
-  if (m.alpha > 1) check.add("MATL", index, "opacity above 1", fmt::format("{}", m.alpha));
+  if (m.alpha > 1) check.add("MATL", index, "opacity above 1", [&] { return fmt::format("{}", m.alpha); });
   if (m.alpha_coverage > 1)
-    check.add("MATL", index, "alpha coverage above 1", fmt::format("{}", m.alpha_coverage));
+    check.add("MATL", index, "alpha coverage above 1", [&] { return fmt::format("{}", m.alpha_coverage); });
   if (m.texture != k_none && m.texture >= check.counts().textures) {
     check.add("MATL", index, "texture index out of range",
-              fmt::format("{} of {}", m.texture, check.counts().textures));
+              [&] { return fmt::format("{} of {}", m.texture, check.counts().textures); });
   }
 }
 
 void check_material_index(const Check& check, const char* whose, std::uint32_t material) {
   if (material == k_none || material < check.counts().materials) return;
   check.add("HEAD", Finding::k_no_element, "material index out of range",
-            fmt::format("{}: {} of {}", whose, material, check.counts().materials));
+            [&] { return fmt::format("{}: {} of {}", whose, material, check.counts().materials); });
 }
 
 }  // namespace
 
 void check_header(const Check& check) {
   const TreeHeader& h = check.head.header;
-  const auto add = [&](const char* kind, const std::string& detail = {}) {
-    check.add("HEAD", Finding::k_no_element, kind, detail);
+  const auto add = [&](const char* kind, auto&&... detail) {
+    check.add("HEAD", Finding::k_no_element, kind, detail...);
   };
   if (!is_finite(h.origin)) add("the origin is not finite");
   const bool whole = check_box(check, "whole", h.bounds), trunk = check_box(check, "trunk", h.trunk_bounds);
@@ -80,7 +80,7 @@ void check_header(const Check& check) {
   check_number(check, "mean leaf area", h.mean_leaf_area);
   if (h.unexplained > check.counts().trunk_triangles) {
     add("more unexplained triangles than triangles",
-        fmt::format("{} of {}", h.unexplained, check.counts().trunk_triangles));
+        [&] { return fmt::format("{} of {}", h.unexplained, check.counts().trunk_triangles); });
   }
   check_material_index(check, "trunk", check.head.trunk_material);
   check_material_index(check, "leaves", check.head.leaf_material);

@@ -17,17 +17,20 @@ class Links {
   explicit Links(const Check& check) : check_(check), next_(check.head.header.roots) {}
 
   bool radius(std::size_t i, const Radius& r) {
-    if (r.flags & ~k_known_flags) return bad(i, "unknown flags", fmt::format("{:#x}", r.flags));
+    if (r.flags & ~k_known_flags)
+      return bad(i, "unknown flags", [&] { return fmt::format("{:#x}", r.flags); });
     if (r.flags & Radius::terminal) return terminal(i, r);
     if (r.child_count == 0) return bad(i, "neither children nor terminal");
     // Breadth first: the children of one radius follow those of the one before.
     if (r.first_child != next_)
       return bad(i, "children out of breadth-first order",
-                 fmt::format("{}, expected {}", r.first_child, next_));
-    if (r.first_child <= i) return bad(i, "children before their parent", fmt::format("{}", r.first_child));
+                 [&] { return fmt::format("{}, expected {}", r.first_child, next_); });
+    if (r.first_child <= i)
+      return bad(i, "children before their parent", [&] { return fmt::format("{}", r.first_child); });
     if (r.child_count > check_.counts().radii - next_) {
-      return bad(i, "children out of range",
-                 fmt::format("{} from {} of {}", r.child_count, r.first_child, check_.counts().radii));
+      return bad(i, "children out of range", [&] {
+        return fmt::format("{} from {} of {}", r.child_count, r.first_child, check_.counts().radii);
+      });
     }
     next_ += r.child_count;
     return true;
@@ -36,22 +39,24 @@ class Links {
   bool finish() {
     if (next_ == check_.counts().radii) return true;
     return bad(next_, "a radius that hangs on nothing",
-               fmt::format("{} of {} are reached", next_, check_.counts().radii));
+               [&] { return fmt::format("{} of {} are reached", next_, check_.counts().radii); });
   }
 
  private:
-  bool bad(std::size_t i, std::string_view kind, const std::string& detail = {}) {
-    check_.add("RADI", i, kind, detail);
+  template <class... Detail>
+  bool bad(std::size_t i, std::string_view kind, Detail&&... detail) {
+    check_.add("RADI", i, kind, std::forward<Detail>(detail)...);
     return false;
   }
   bool terminal(std::size_t i, const Radius& r) {
     if (r.child_count > 1)
-      return bad(i, "a terminal radius with several groups", fmt::format("{}", r.child_count));
+      return bad(i, "a terminal radius with several groups",
+                 [&] { return fmt::format("{}", r.child_count); });
     if (r.child_count == 0 && r.first_child != k_none)
       return bad(i, "a terminal radius names a group that it does not have");
     if (r.child_count == 1 && r.first_child >= check_.counts().groups) {
       return bad(i, "leaf group out of range",
-                 fmt::format("{} of {}", r.first_child, check_.counts().groups));
+                 [&] { return fmt::format("{} of {}", r.first_child, check_.counts().groups); });
     }
     return true;
   }
@@ -64,7 +69,7 @@ bool check_links(const Check& check) {
   const std::uint32_t roots = check.head.header.roots, radii = check.counts().radii;
   if (roots > radii || (roots == 0 && radii > 0)) {
     check.add("HEAD", Finding::k_no_element, "roots out of range",
-              fmt::format("{} of {} radii", roots, radii));
+              [&] { return fmt::format("{} of {} radii", roots, radii); });
     return false;
   }
   Links links(check);
@@ -98,7 +103,7 @@ void check_distances(const Check& check) {
     const double tolerance = i < check.head.header.roots ? 0 : length_tolerance(wanted, reach);
     if (std::abs(radii[i].distance - wanted) <= tolerance) continue;
     check.add("RADI", i, "the distance is not the length of the vector from the parent",
-              fmt::format("{}, expected {}", radii[i].distance, wanted));
+              [&] { return fmt::format("{}, expected {}", radii[i].distance, wanted); });
   }
 }
 
@@ -122,7 +127,8 @@ void check_outer_radii(const Check& check) {
     const std::size_t end = tree.first_vector_of(r + 1);
     for (std::size_t v = tree.first_vector_of(r); v < end; ++v) {
       if (sphere_contains({}, tree.hierarchy.radii[r].outer_radius, tree.hierarchy.vectors[v])) continue;
-      check.add("RADI", r, "a vertex is farther away than the outer radius", fmt::format("vector {}", v));
+      check.add("RADI", r, "a vertex is farther away than the outer radius",
+                [&] { return fmt::format("vector {}", v); });
       break;
     }
   }

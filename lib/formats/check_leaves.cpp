@@ -23,7 +23,7 @@ void check_centres(const Check& check) {
                         c.x <= box.max.x + slack && c.y <= box.max.y + slack && c.z <= box.max.z + slack;
     if (!inside && !box.empty())
       check.add("LCEN", leaf, "the centre is outside the leaf's box",
-                fmt::format("({} {} {})", c.x, c.y, c.z));
+                [&] { return fmt::format("({} {} {})", c.x, c.y, c.z); });
   }
 }
 

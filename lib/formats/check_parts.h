@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace copse {
@@ -19,9 +20,10 @@ struct Check {
 
   const TreeCounts& counts() const { return head.counts; }
   bool sensitive() const { return head.header.kind == TreeKind::sensitive; }
-  void add(std::string_view section, std::size_t element, std::string_view kind,
-           const std::string& detail = {}) const {
-    findings.add(section, element, kind, detail);
+  // As Findings::add.
+  template <class Detail = std::string>
+  void add(std::string_view section, std::size_t element, std::string_view kind, Detail&& detail = {}) const {
+    findings.add(section, element, kind, std::forward<Detail>(detail));
   }
 
   // Each answers whether all is well.

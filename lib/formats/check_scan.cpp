@@ -52,7 +52,7 @@ bool Check::below(std::string_view section, const Array<std::uint32_t>& values, 
   if (or_none ? all_below_or_none(values, limit) : all_below(values, limit)) return true;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] < limit || (or_none && values[i] == k_none)) continue;
-    add(section, i, "index out of range", fmt::format("{} of {} {}", values[i], limit, of));
+    add(section, i, "index out of range", [&] { return fmt::format("{} of {} {}", values[i], limit, of); });
   }
   return false;
 }
@@ -63,7 +63,7 @@ bool Check::corners(std::string_view section, const Array<CornerTriangle>& trian
   const auto test = [&](std::size_t i, std::uint32_t index, std::uint32_t limit, bool or_none,
                         const char* kind) {
     if (index < limit || (or_none && index == k_none)) return;
-    add(section, i, kind, fmt::format("{} of {}", index, limit));
+    add(section, i, kind, [&] { return fmt::format("{} of {}", index, limit); });
   };
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -80,12 +80,12 @@ bool Check::offsets(std::string_view section, const Array<std::uint32_t>& values
   if (values.empty()) return true;
   bool sound = true;
   if (values[0] != 0) {
-    add(section, 0, "the first offset is not 0", fmt::format("{}", values[0]));
+    add(section, 0, "the first offset is not 0", [&] { return fmt::format("{}", values[0]); });
     sound = false;
   }
   if (values[values.size() - 1] != elements) {
     add(section, values.size() - 1, "the last offset is not the end",
-        fmt::format("{} of {}", values[values.size() - 1], elements));
+        [&] { return fmt::format("{} of {}", values[values.size() - 1], elements); });
     sound = false;
   }
   return sorted(section, values) && sound;
@@ -96,7 +96,7 @@ bool Check::sorted(std::string_view section, const Array<T>& values) const {
   if (non_decreasing(values)) return true;
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (values[i] < values[i - 1])
-      add(section, i, "out of order", fmt::format("{} after {}", values[i], values[i - 1]));
+      add(section, i, "out of order", [&] { return fmt::format("{} after {}", values[i], values[i - 1]); });
   }
   return false;
 }
@@ -113,8 +113,9 @@ bool Check::inside(std::string_view section, std::span<const Float3> points, con
     FloatBox grown = box;
     grown.grow(points[i]);
     if (grown == box) continue;
-    add(section, i, "a vertex is outside a box",
-        fmt::format("({} {} {}) and the box of {}", points[i].x, points[i].y, points[i].z, which));
+    add(section, i, "a vertex is outside a box", [&] {
+      return fmt::format("({} {} {}) and the box of {}", points[i].x, points[i].y, points[i].z, which);
+    });
   }
   return false;
 }

@@ -4,6 +4,9 @@
 #include "lib/formats/tree_file.h"
 #include "lib/formats/tree_sections.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 namespace copse {
@@ -13,10 +16,15 @@ std::string to_text(const Finding& f) {
   return fmt::format("{}[{}]: {}", f.section, f.element, f.what);
 }
 
-void Findings::add(std::string_view section, std::size_t element, std::string_view kind,
-                   const std::string& detail) {
-  std::size_t& count = counts_[{std::string(section), std::string(kind)}];
-  if (++count > k_listed) return;
+bool Findings::counted(std::string_view section, std::string_view kind) {
+  auto at = std::find_if(kinds_.begin(), kinds_.end(),
+                         [&](const Kind& k) { return k.kind == kind && k.section == section; });
+  if (at == kinds_.end()) at = kinds_.insert(at, {std::string(section), std::string(kind)});
+  return ++at->count <= k_listed;
+}
+
+void Findings::list(std::string_view section, std::size_t element, std::string_view kind,
+                    const std::string& detail) {
   std::string what(kind);
   if (!detail.empty()) what += ": " + detail;
   listed_.push_back({std::string(section), element, std::move(what)});
@@ -25,8 +33,8 @@ void Findings::add(std::string_view section, std::size_t element, std::string_vi
 std::vector<std::string> Findings::lines() const {
   std::vector<std::string> lines;
   for (const Finding& f : listed_) lines.push_back(to_text(f));
-  for (const auto& [kind, count] : counts_) {
-    if (count > k_listed) lines.push_back(fmt::format("{}: {}: {} in all", kind.first, kind.second, count));
+  for (const Kind& k : kinds_) {
+    if (k.count > k_listed) lines.push_back(fmt::format("{}: {}: {} in all", k.section, k.kind, k.count));
   }
   return lines;
 }
@@ -40,7 +48,8 @@ struct SizeCheck {
 
   void parallel(std::string_view section, std::size_t size, std::size_t wanted, std::string_view of) const {
     if (size != 0 && size != wanted) {
-      findings.add(section, "not parallel", fmt::format("{} entries for {} {}", size, wanted, of));
+      findings.add(section, Finding::k_no_element, "not parallel",
+                   fmt::format("{} entries for {} {}", size, wanted, of));
     }
   }
   // Runs of elements: all of one length, or offsets.
@@ -48,19 +57,23 @@ struct SizeCheck {
             std::size_t owners, std::size_t elements) const {
     if (constant != 0) {
       if (elements == 0)
-        findings.add(section, "a constant length of runs that are empty", fmt::format("{}", constant));
-      if (!offsets.empty()) findings.add(section, "offsets beside a constant", fmt::format("{}", constant));
+        findings.add(section, Finding::k_no_element, "a constant length of runs that are empty",
+                     fmt::format("{}", constant));
+      if (!offsets.empty())
+        findings.add(section, Finding::k_no_element, "offsets beside a constant",
+                     fmt::format("{}", constant));
       if (elements != std::uint64_t{constant} * owners) {
-        findings.add(section, "the constant does not fit",
+        findings.add(section, Finding::k_no_element, "the constant does not fit",
                      fmt::format("{} elements in {} runs of {}", elements, owners, constant));
       }
       return;
     }
     if (elements == 0 && offsets.empty()) return;
     if (offsets.size() != owners + 1) {
-      findings.add(section, "not parallel", fmt::format("{} offsets for {} runs", offsets.size(), owners));
+      findings.add(section, Finding::k_no_element, "not parallel",
+                   fmt::format("{} offsets for {} runs", offsets.size(), owners));
     } else if (offsets[0] != 0 || offsets[owners] != elements) {
-      findings.add(section, "offsets do not span the elements",
+      findings.add(section, Finding::k_no_element, "offsets do not span the elements",
                    fmt::format("{} to {} of {}", offsets[0], offsets[owners], elements));
     }
   }
@@ -75,17 +88,18 @@ std::vector<std::string> check_sizes(const Tree& tree) {
   const Trunk& t = tree.trunk;
   const Leaves& l = tree.leaves;
   const bool sensitive = h.kind == TreeKind::sensitive;
-  if (!sensitive && h.kind != TreeKind::still) findings.add("HEAD", "unknown kind");
+  if (!sensitive && h.kind != TreeKind::still) findings.add("HEAD", Finding::k_no_element, "unknown kind");
   if (sensitive && !(t.vertices.empty() && t.line_vertices.empty())) {
-    findings.add("TVTX", "an .stree carries no trunk vertices: they are rebuilt");
+    findings.add("TVTX", Finding::k_no_element, "an .stree carries no trunk vertices: they are rebuilt");
   }
   const RadiusHierarchy& r = tree.hierarchy;
   if (!sensitive && !(r.radii.empty() && r.vectors.empty() && r.first_vector.empty())) {
-    findings.add("RADI", "a .tree carries no hierarchy");
+    findings.add("RADI", Finding::k_no_element, "a .tree carries no hierarchy");
   }
   for_each_array(tree, {.header = h, .counts = {}},
                  [&](std::string_view name, const auto& array, std::uint64_t, Presence) {
-                   if (array.size() > k_max_count) findings.add(name, "too many elements for 32-bit indices");
+                   if (array.size() > k_max_count)
+                     findings.add(name, Finding::k_no_element, "too many elements for 32-bit indices");
                  });
   const std::size_t segments = tree.segment_count(), leaves = tree.leaf_count();
   check.parallel("TLIN", t.lines.size(), segments, "segments");

@@ -6,9 +6,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace copse {
@@ -25,15 +25,21 @@ struct Finding {
 std::string to_text(const Finding& finding);
 
 // Collects findings. Of each kind (section and kind of failure) the first k_listed are kept, the rest are
-// counted: a file with a million bad indices gives a short list that still says a million.
+// counted: a file with a million bad indices gives a short list that still says a million, and in no time.
 class Findings {
  public:
   static constexpr std::size_t k_listed = 8;
 
-  // `kind` is the same for all failures of a kind: "vertex index out of range".
-  void add(std::string_view section, std::size_t element, std::string_view kind, const std::string& detail);
-  void add(std::string_view section, std::string_view kind, const std::string& detail = {}) {
-    add(section, Finding::k_no_element, kind, detail);
+  // `kind` is the same for all failures of a kind: "vertex index out of range". `detail` is a text, or makes
+  // one when it is called, which happens for what is listed only.
+  template <class Detail = std::string>
+  void add(std::string_view section, std::size_t element, std::string_view kind, Detail&& detail = {}) {
+    if (!counted(section, kind)) return;
+    if constexpr (std::is_invocable_v<Detail>) {
+      list(section, element, kind, detail());
+    } else {
+      list(section, element, kind, detail);
+    }
   }
   bool empty() const { return listed_.empty(); }
   const std::vector<Finding>& listed() const { return listed_; }
@@ -41,8 +47,14 @@ class Findings {
   std::vector<std::string> lines() const;
 
  private:
+  struct Kind {
+    std::string section, kind;
+    std::size_t count = 0;
+  };
+  bool counted(std::string_view section, std::string_view kind);  // whether it is to be listed, too
+  void list(std::string_view section, std::size_t element, std::string_view kind, const std::string& detail);
   std::vector<Finding> listed_;
-  std::map<std::pair<std::string, std::string>, std::size_t, std::less<>> counts_;
+  std::vector<Kind> kinds_;  // in the order of their first failure; there are never many
 };
 
 // Whether the arrays fit together: parallel arrays, offset tables, what a kind of tree may carry. All of it

@@ -20,7 +20,7 @@ bool check_radius_lines(const Check& check) {
   std::vector<bool> used(radii.size());
   bool sound = true;
   const auto bad = [&](std::size_t i, const char* kind) {
-    check.add("TLIN", i, kind, fmt::format("{} to {}", lines[i][0], lines[i][1]));
+    check.add("TLIN", i, kind, [&] { return fmt::format("{} to {}", lines[i][0], lines[i][1]); });
     sound = false;
   };
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -39,7 +39,8 @@ bool check_radius_lines(const Check& check) {
   };
   for (std::size_t r = 0; r < radii.size(); ++r) {
     if (!used[r] && has_line(r))
-      check.add("TLIN", Finding::k_no_element, "a radius without its line", fmt::format("{}", r));
+      check.add("TLIN", Finding::k_no_element, "a radius without its line",
+                [&] { return fmt::format("{}", r); });
   }
   return sound;
 }
@@ -53,7 +54,7 @@ void check_radius_diameters(const Check& check) {
     const float wanted = std::max(radii[lines[i][0]].diameter, radii[lines[i][1]].diameter);
     if (diameters[i] != wanted) {
       check.add("TDIA", i, "not the larger diameter of its two radii",
-                fmt::format("{}, expected {}", diameters[i], wanted));
+                [&] { return fmt::format("{}, expected {}", diameters[i], wanted); });
     }
     if (i > 0 && diameters[i] == diameters[i - 1] && lines[i][1] < lines[i - 1][1]) {
       check.add("TLIN", i, "segments of equal diameter out of the order of their radii");
@@ -72,7 +73,7 @@ void check_lengths(const Check& check, const std::vector<Double3>& ends) {
     const double tolerance = length_tolerance(wanted, reach) + 4 * k_double_rounding * sums[i];
     if (!(std::abs(sums[i] - before - wanted) <= tolerance)) {
       check.add("TACC", i, "does not grow by its segment's length",
-                fmt::format("by {}, expected {}", sums[i] - before, wanted));
+                [&] { return fmt::format("by {}, expected {}", sums[i] - before, wanted); });
     }
     before = sums[i];
   }
@@ -95,15 +96,16 @@ void check_areas(const Check& check, std::span<const Float3> vertices) {
   const TreeHeader& h = check.head.header;
   if (!mean_matches(h.mean_trunk_area, 1 / n * sum)) {
     check.add("HEAD", Finding::k_no_element, "the mean area of the trunk's triangles is wrong",
-              fmt::format("{}, expected {}", h.mean_trunk_area, sum.value / n));
+              [&] { return fmt::format("{}, expected {}", h.mean_trunk_area, sum.value / n); });
   }
   if (!(sum.value > 0) || sum.more > sum.value / 2) return;  // no area to speak of: the centre is free
   const Double3 centre = weighted / sum.value;
   const double tolerance = length_tolerance(0, reach) + 4 * reach * (sum.more / sum.value) + 1e-9 * reach;
   if (distance(to_double(h.area_density_centre), centre) > tolerance) {
-    check.add("HEAD", Finding::k_no_element, "the area-density centre is wrong",
-              fmt::format("({} {} {}), expected ({} {} {})", h.area_density_centre.x, h.area_density_centre.y,
-                          h.area_density_centre.z, centre.x, centre.y, centre.z));
+    check.add("HEAD", Finding::k_no_element, "the area-density centre is wrong", [&] {
+      return fmt::format("({} {} {}), expected ({} {} {})", h.area_density_centre.x, h.area_density_centre.y,
+                         h.area_density_centre.z, centre.x, centre.y, centre.z);
+    });
   }
 }
 
@@ -128,7 +130,7 @@ bool check_line_indices(const Check& check) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i][0] < limit && lines[i][1] < limit) continue;
     check.add("TLIN", i, "index out of range",
-              fmt::format("{} to {} of {}", lines[i][0], lines[i][1], limit));
+              [&] { return fmt::format("{} to {} of {}", lines[i][0], lines[i][1], limit); });
   }
   return false;
 }
@@ -137,7 +139,7 @@ void check_segments(const Check& check, bool hierarchy_is_sound) {
   const Trunk& t = check.tree.trunk;
   bool diameters = check.finite("TDIA", t.diameters) && check.sorted("TDIA", t.diameters);
   if (diameters && !t.diameters.empty() && t.diameters[0] < 0) {
-    check.add("TDIA", 0, "negative", fmt::format("{}", t.diameters[0]));
+    check.add("TDIA", 0, "negative", [&] { return fmt::format("{}", t.diameters[0]); });
     diameters = false;
   }
   const bool sums =

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <new>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -47,6 +48,7 @@ struct TableReader {
   const std::string& file;
   std::span<const std::uint8_t> bytes;
   std::vector<SectionInfo> sections = {};
+  std::set<std::string, std::less<>> names = {};
   std::uint64_t end = 0;            // of the section before
   std::uint64_t decoded_total = 0;  // checked after each section, so it cannot overflow
 
@@ -78,7 +80,7 @@ Result<void> TableReader::read_entry(std::size_t index) {
     return bad(k_entry_encoding, fmt::format("encoding {} is unknown to this version", encoding));
   }
   s.encoding = static_cast<Encoding>(encoding);
-  if (std::any_of(sections.begin(), sections.end(), [&](const auto& o) { return o.name == s.name; })) {
+  if (!names.insert(s.name).second) {
     return bad(k_entry_name, "the name occurs twice");
   }
   if (s.offset != align_up(end, k_section_alignment)) {
