@@ -68,9 +68,15 @@ TEST(PartVerdicts, ErrorsListTwelveNamesAndCountTheRest) {
   ASSERT_FALSE(v.has_value());
   EXPECT_NE(v.error().remedy.find("'p100', 'p101'"), std::string::npos);
   EXPECT_NE(v.error().remedy.find("and 18 more"), std::string::npos);
-  const auto none = part_verdicts(mesh_of({{"", "", ""}}), {.trunk_patterns = {"*"}, .leaf_patterns = {}});
+  const auto none = part_verdicts(mesh_of({{"", "", ""}}), {.trunk_patterns = {"?*"}, .leaf_patterns = {}});
   ASSERT_FALSE(none.has_value());
   EXPECT_NE(none.error().remedy.find("no names"), std::string::npos);
+}
+
+TEST(PartVerdicts, AStarAloneTakesWhatHasNoName) {
+  const auto v = verdicts(mesh_of({{"", "", ""}}), {.trunk_patterns = {"*"}, .leaf_patterns = {}});
+  EXPECT_EQ(v[0].kind, NameClass::trunk);
+  EXPECT_EQ(v[0].reason, "--trunk '*' matches a material without a name");
 }
 
 TEST(PartVerdicts, AMaterialIndexOutOfRangeIsNoMaterial) {

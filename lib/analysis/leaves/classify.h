@@ -19,8 +19,8 @@ namespace copse {
 enum class PartClass : std::uint8_t { trunk, leaf };
 
 struct ClassifyOptions {
-  // Globs (* ? [..], case-insensitive) over material, object and group names. Parts that match none are
-  // decided by the mesh itself.
+  // Globs (* ? [..], case-insensitive) over material, group and object names; "*" matches what has no name,
+  // too. Parts that match none are decided by the mesh itself.
   std::vector<std::string> trunk_patterns, leaf_patterns;
 };
 

@@ -53,8 +53,10 @@ class Patterns {
         for (const auto& [what, name] : names_of(mesh, mesh.parts[p])) {
           if (!glob_match(pattern, name)) continue;  // "*" also takes what has no name
           used = true;
-          if (claims_[p].empty())
-            claims_[p] = option_ + (" '" + pattern + "' matches " + what + " '" + name + "'");
+          if (claims_[p].empty()) {
+            claims_[p] = option_ + (" '" + pattern + "' matches ") + (name.empty() ? "a " : "") + what;
+            claims_[p] += name.empty() ? std::string(" without a name") : " '" + name + "'";
+          }
           break;
         }
       }
