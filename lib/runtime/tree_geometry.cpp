@@ -103,8 +103,9 @@ class CornerTable {
 std::vector<std::uint32_t> by_material(const PartView& part) {
   std::vector<std::uint32_t> order(part.triangles.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return part.materials[a] < part.materials[b]; });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return part.materials[a] != part.materials[b] ? part.materials[a] < part.materials[b] : a < b;
+  });
   return order;
 }
 

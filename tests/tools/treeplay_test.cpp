@@ -140,6 +140,19 @@ TEST(Treeplay, CutsLeavesWhereTheirTextureIsTransparent) {
   }
 }
 
+TEST(Treeplay, ATexturesTopDoesNotShineThroughAtItsBottom) {
+  const Studio studio(square_obj(0, "leaf"));
+  Image leaf{.width = 16, .height = 16, .rgba = {}, .has_alpha = true};
+  for (int i = 0; i < 256; ++i) {
+    for (const int byte : {255, 0, 0, i < 16 * 8 ? 255 : 0})
+      leaf.rgba.push_back(static_cast<std::uint8_t>(byte));
+  }
+  ASSERT_TRUE(write_image(studio.folder.file("leaf.png"), leaf));
+  const Image image = studio.flat({"--size", "64x64"});
+  EXPECT_EQ(at(image, 32, 16), k_red) << "the upper half is there to its edge";
+  for (int y = 36; y < 64; ++y) EXPECT_EQ(at(image, 32, y), k_black) << y;
+}
+
 TEST(Treeplay, WarnsAboutAMissingTextureAndDrawsOn) {
   const Studio studio(square_obj(0, "lost"));
   const Outcome outcome = studio.play({"--frames", studio.picture, "--size", "32x32", "--samples", "1"});

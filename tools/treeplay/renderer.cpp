@@ -392,14 +392,15 @@ Image Renderer::read_picture() const {
   image.width = picture_width_;
   image.height = picture_height_;
   const std::size_t row = 4 * static_cast<std::size_t>(picture_width_);
-  std::vector<std::uint8_t> rows(row * static_cast<std::size_t>(picture_height_));
+  const auto height = static_cast<std::size_t>(picture_height_);
+  image.rgba.resize(row * height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_framebuffer_.get());
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadPixels(0, 0, picture_width_, picture_height_, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
-  image.rgba.resize(rows.size());
-  for (std::size_t y = 0; y < static_cast<std::size_t>(picture_height_); ++y) {
-    std::copy_n(rows.data() + y * row, row,
-                image.rgba.data() + (static_cast<std::size_t>(picture_height_) - 1 - y) * row);
+  glReadPixels(0, 0, picture_width_, picture_height_, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  // OpenGL's rows start at the bottom, a picture's at the top.
+  for (std::size_t y = 0; y < height / 2; ++y) {
+    std::uint8_t* top = image.rgba.data() + y * row;
+    std::swap_ranges(top, top + row, image.rgba.data() + (height - 1 - y) * row);
   }
   return image;
 }

@@ -40,8 +40,6 @@ std::size_t SurfacePass::upload_image(const Image& image, float cutoff) {
                  mip.rgba.data());
   }
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   return images_.size() - 1;
 }
 
@@ -51,12 +49,36 @@ std::size_t SurfacePass::flat_image(const Float3& linear_colour) {
   glBindTexture(GL_TEXTURE_2D, images_.back().get());
   const std::array<float, 4> texel{linear_colour.x, linear_colour.y, linear_colour.z, 1};
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, 1, 1, 0, GL_RGBA, GL_FLOAT, texel.data());
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   return images_.size() - 1;
 }
 
+namespace {
+
+// Repeating a texture that is never repeated lets its top edge shine through at its bottom: cards would have
+// a line along the edge. So a range repeats only if its coordinates say so (but for rounding).
+bool leaves_unit_square(const TreeGeometry& g, const DrawRange& range) {
+  const auto begin = g.indices.begin() + range.first_index;
+  return std::any_of(begin, begin + range.index_count, [&](std::uint32_t i) {
+    const Float2& t = g.vertices[i].texcoord;
+    return !(t.x >= -1e-4f && t.x <= 1 + 1e-4f && t.y >= -1e-4f && t.y <= 1 + 1e-4f);
+  });
+}
+
+Sampler make_wrap_sampler(GLint wrap) {
+  Sampler sampler = make_sampler();
+  glSamplerParameteri(sampler.get(), GL_TEXTURE_WRAP_S, wrap);
+  glSamplerParameteri(sampler.get(), GL_TEXTURE_WRAP_T, wrap);
+  glSamplerParameteri(sampler.get(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glSamplerParameteri(sampler.get(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return sampler;
+}
+
+}  // namespace
+
 Result<void> SurfacePass::upload(const Scene& scene) {
+  repeating_ = make_wrap_sampler(GL_REPEAT);
+  clamping_ = make_wrap_sampler(GL_CLAMP_TO_EDGE);
   const TreeGeometry& g = scene.geometry;
   array_ = make_vertex_array();
   vertices_ = make_buffer();
@@ -87,6 +109,7 @@ Result<void> SurfacePass::upload(const Scene& scene) {
     r.material = material_of(scene, range);
     const bool cut_out = r.material.alpha_cutoff > 0;
     r.thin = range.part == DrawPart::leaves || (range.part == DrawPart::mesh && cut_out) ? 1.0f : 0.0f;
+    r.repeats = leaves_unit_square(g, range);
     const std::uint32_t t = r.material.texture;
     const auto [known, is_new] = uploaded.try_emplace({t, r.material.alpha_cutoff}, 0);
     if (t < scene.images.size() && scene.images[t]) {
@@ -105,6 +128,7 @@ void SurfacePass::draw(const Program& program, bool with_light) const {
   glActiveTexture(GL_TEXTURE0);
   for (const Range& r : ranges_) {
     glBindTexture(GL_TEXTURE_2D, images_[r.image].get());
+    glBindSampler(0, r.repeats ? repeating_.get() : clamping_.get());
     if (with_light) {
       program.set("diffuse", r.material.diffuse);
       program.set("specular", r.material.specular);
@@ -117,6 +141,7 @@ void SurfacePass::draw(const Program& program, bool with_light) const {
     }
     glDrawElements(GL_TRIANGLES, r.count, GL_UNSIGNED_INT, r.first);
   }
+  glBindSampler(0, 0);
 }
 
 void SurfacePass::draw_shadow(const Mat4& clip) const {

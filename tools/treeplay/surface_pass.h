@@ -28,6 +28,7 @@ class SurfacePass {
     Material material;
     std::size_t image = 0;  // into images_
     float thin = 0;
+    bool repeats = false;  // its texture coordinates leave [0, 1]
   };
   void draw(const Program& program, bool with_light) const;
   std::size_t upload_image(const Image& image, float cutoff);
@@ -37,6 +38,7 @@ class SurfacePass {
   VertexArray array_;
   Buffer vertices_, indices_;
   std::vector<Texture2> images_;
+  Sampler repeating_, clamping_;
   std::vector<Range> ranges_;
 };
 
