@@ -86,15 +86,14 @@ Result<void> add_textures(const Order& order, int size, Mesh& mesh) {
   return {};
 }
 
-Result<void> write_mesh(const Order& order, const Options& options, const Mesh& mesh, Context& context) {
+Result<void> write_mesh(const Order& order, const Options& options, ExportFormat format, const Mesh& mesh,
+                        Context& context) {
   Stage stage = context.stage("export");
   stage.items(mesh.triangles.size(), "triangles");
-  const auto format = export_format_of(options.output.filename().string());
-  if (!format) return std::unexpected(format.error());
-  auto files = export_mesh(mesh, *format, options.output.filename().string());
+  auto files = export_mesh(mesh, format, options.output.filename().string());
   if (!files) return std::unexpected(files.error());
-  if (*format == ExportFormat::obj) files->front().bytes = join_faces(std::move(files->front().bytes), mesh);
-  if (*format != ExportFormat::obj && order.breaks.has(Break::quads) && !options.breaks.empty())
+  if (format == ExportFormat::obj) files->front().bytes = join_faces(std::move(files->front().bytes), mesh);
+  if (format != ExportFormat::obj && order.breaks.has(Break::quads) && !options.breaks.empty())
     context.warn("only OBJ holds faces of more than three corners: quads are written as triangles");
   const auto folder = options.output.parent_path();
   for (const ExportedFile& file : *files)
@@ -138,8 +137,8 @@ void tell(const Order& order, const Plan& plan, const Grown& grown, Context& con
 Result<void> grow_and_write(const Options& options, Context& context) {
   if (options.output.empty())
     return fail(Fault::usage, "", "no output is named", "add -o NAME.obj, NAME.glb or NAME.ply");
-  if (const auto format = export_format_of(options.output.filename().string()); !format)
-    return std::unexpected(format.error());
+  const auto format = export_format_of(options.output.filename().string());
+  if (!format) return std::unexpected(format.error());
   auto species = chosen_species(options, context);
   if (!species) return std::unexpected(species.error());
   const auto breaks = chosen_breaks(options);
@@ -159,11 +158,11 @@ Result<void> grow_and_write(const Options& options, Context& context) {
     return make_mesh(order, *plan);
   }();
   tell(order, *plan, grown, context);
-  if (!options.no_textures) {
+  if (!options.no_textures && *format != ExportFormat::ply) {  // a PLY names no material
     Stage stage = context.stage("paint");
     if (const auto done = add_textures(order, options.texture_size, grown.mesh); !done) return done;
   }
-  if (const auto done = write_mesh(order, options, grown.mesh, context); !done) return done;
+  if (const auto done = write_mesh(order, options, *format, grown.mesh, context); !done) return done;
   if (options.truth.empty()) return {};
   return write_truth(options, grown.truth, context);
 }
