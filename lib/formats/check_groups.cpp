@@ -61,9 +61,10 @@ bool check_spheres(const Check& check) {
       check.add("LGRP", g, "the sphere is not finite or its radius negative");
       sound = false;
     }
-    if (!std::isfinite(group.mean_area) || group.mean_area < 0)
+    if (!std::isfinite(group.mean_area) || group.mean_area < 0) {
       check.add("LGRP", g, "the mean area is not finite or negative",
                 [&] { return fmt::format("{}", group.mean_area); });
+    }
   }
   return sound;
 }
@@ -172,8 +173,9 @@ void check_groups(const Check& check, bool leaves_are_sound) {
   const bool spheres = check_spheres(check);
   const bool members = partition && permutation && spheres && !l.groups.empty() && !l.order.empty();
   if (leaves_are_sound) check_mean_leaf_area(check, members ? check_group_leaves(check) : area_of_all(check));
-  if (members && !l.centres.empty() && check.head.header.leaf_order == LeafOrder::group)
+  if (members && !l.centres.empty() && check.head.header.leaf_order == LeafOrder::group) {
     check_group_order(check);
+  }
 }
 
 }  // namespace copse

@@ -49,8 +49,9 @@ void check_material(const Check& check, std::size_t index, const Material& m) {
     }
   }
   if (m.alpha > 1) check.add("MATL", index, "opacity above 1", [&] { return fmt::format("{}", m.alpha); });
-  if (m.alpha_coverage > 1)
+  if (m.alpha_coverage > 1) {
     check.add("MATL", index, "alpha coverage above 1", [&] { return fmt::format("{}", m.alpha_coverage); });
+  }
   if (m.texture != k_none && m.texture >= check.counts().textures) {
     check.add("MATL", index, "texture index out of range",
               [&] { return fmt::format("{} of {}", m.texture, check.counts().textures); });
@@ -84,8 +85,9 @@ void check_header(const Check& check) {
   }
   check_material_index(check, "trunk", check.head.trunk_material);
   check_material_index(check, "leaves", check.head.leaf_material);
-  for (std::size_t i = 0; i < check.tree.materials.size(); ++i)
+  for (std::size_t i = 0; i < check.tree.materials.size(); ++i) {
     check_material(check, i, check.tree.materials[i]);
+  }
 }
 
 }  // namespace copse

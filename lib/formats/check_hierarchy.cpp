@@ -17,16 +17,19 @@ class Links {
   explicit Links(const Check& check) : check_(check), next_(check.head.header.roots) {}
 
   bool radius(std::size_t i, const Radius& r) {
-    if (r.flags & ~k_known_flags)
+    if (r.flags & ~k_known_flags) {
       return bad(i, "unknown flags", [&] { return fmt::format("{:#x}", r.flags); });
+    }
     if (r.flags & Radius::terminal) return terminal(i, r);
     if (r.child_count == 0) return bad(i, "neither children nor terminal");
     // Breadth first: the children of one radius follow those of the one before.
-    if (r.first_child != next_)
+    if (r.first_child != next_) {
       return bad(i, "children out of breadth-first order",
                  [&] { return fmt::format("{}, expected {}", r.first_child, next_); });
-    if (r.first_child <= i)
+    }
+    if (r.first_child <= i) {
       return bad(i, "children before their parent", [&] { return fmt::format("{}", r.first_child); });
+    }
     if (r.child_count > check_.counts().radii - next_) {
       return bad(i, "children out of range", [&] {
         return fmt::format("{} from {} of {}", r.child_count, r.first_child, check_.counts().radii);
@@ -49,11 +52,13 @@ class Links {
     return false;
   }
   bool terminal(std::size_t i, const Radius& r) {
-    if (r.child_count > 1)
+    if (r.child_count > 1) {
       return bad(i, "a terminal radius with several groups",
                  [&] { return fmt::format("{}", r.child_count); });
-    if (r.child_count == 0 && r.first_child != k_none)
+    }
+    if (r.child_count == 0 && r.first_child != k_none) {
       return bad(i, "a terminal radius names a group that it does not have");
+    }
     if (r.child_count == 1 && r.first_child >= check_.counts().groups) {
       return bad(i, "leaf group out of range",
                  [&] { return fmt::format("{} of {}", r.first_child, check_.counts().groups); });
@@ -112,8 +117,9 @@ void check_monotone(const Check& check) {
   bool monotone = !radii.empty();
   for (const Radius& r : radii) {
     if (r.flags & Radius::terminal) continue;
-    for (std::uint32_t c = 0; c < r.child_count; ++c)
+    for (std::uint32_t c = 0; c < r.child_count; ++c) {
       monotone &= radii[r.first_child + c].diameter <= r.diameter;
+    }
   }
   if (monotone == check.head.header.monotone) return;
   check.add("HEAD", Finding::k_no_element, "the flag monotone is wrong",

@@ -21,9 +21,10 @@ void check_centres(const Check& check) {
     const Float3 c = l.centres[leaf];
     const bool inside = c.x >= box.min.x - slack && c.y >= box.min.y - slack && c.z >= box.min.z - slack &&
                         c.x <= box.max.x + slack && c.y <= box.max.y + slack && c.z <= box.max.z + slack;
-    if (!inside && !box.empty())
+    if (!inside && !box.empty()) {
       check.add("LCEN", leaf, "the centre is outside the leaf's box",
                 [&] { return fmt::format("({} {} {})", c.x, c.y, c.z); });
+    }
   }
 }
 

@@ -95,8 +95,9 @@ template <class T>
 bool Check::sorted(std::string_view section, const Array<T>& values) const {
   if (non_decreasing(values)) return true;
   for (std::size_t i = 1; i < values.size(); ++i) {
-    if (values[i] < values[i - 1])
+    if (values[i] < values[i - 1]) {
       add(section, i, "out of order", [&] { return fmt::format("{} after {}", values[i], values[i - 1]); });
+    }
   }
   return false;
 }

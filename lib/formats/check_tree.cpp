@@ -56,12 +56,14 @@ struct SizeCheck {
   void runs(std::string_view section, std::uint32_t constant, const Array<std::uint32_t>& offsets,
             std::size_t owners, std::size_t elements) const {
     if (constant != 0) {
-      if (elements == 0)
+      if (elements == 0) {
         findings.add(section, Finding::k_no_element, "a constant length of runs that are empty",
                      fmt::format("{}", constant));
-      if (!offsets.empty())
+      }
+      if (!offsets.empty()) {
         findings.add(section, Finding::k_no_element, "offsets beside a constant",
                      fmt::format("{}", constant));
+      }
       if (elements != std::uint64_t{constant} * owners) {
         findings.add(section, Finding::k_no_element, "the constant does not fit",
                      fmt::format("{} elements in {} runs of {}", elements, owners, constant));
@@ -98,8 +100,9 @@ std::vector<std::string> check_sizes(const Tree& tree) {
   }
   for_each_array(tree, {.header = h, .counts = {}},
                  [&](std::string_view name, const auto& array, std::uint64_t, Presence) {
-                   if (array.size() > k_max_count)
+                   if (array.size() > k_max_count) {
                      findings.add(name, Finding::k_no_element, "too many elements for 32-bit indices");
+                   }
                  });
   const std::size_t segments = tree.segment_count(), leaves = tree.leaf_count();
   check.parallel("TLIN", t.lines.size(), segments, "segments");

@@ -38,9 +38,10 @@ bool check_radius_lines(const Check& check) {
     return parent[r] != k_none && !(radii[r].flags & Radius::joint);
   };
   for (std::size_t r = 0; r < radii.size(); ++r) {
-    if (!used[r] && has_line(r))
+    if (!used[r] && has_line(r)) {
       check.add("TLIN", Finding::k_no_element, "a radius without its line",
                 [&] { return fmt::format("{}", r); });
+    }
   }
   return sound;
 }

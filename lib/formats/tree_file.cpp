@@ -101,8 +101,9 @@ Result<void> TreeFile::Impl::read_omitted() {
     if (!all_zero(bytes->span().subspan(at + 4, 4))) {
       return file.refuse_section(*section, at + 4, "reserved bytes are not zero");
     }
-    if (file.find(entry.name))
+    if (file.find(entry.name)) {
       return file.refuse_section(*section, at, entry.name + " is listed, yet it is there");
+    }
     omitted_names.push_back(entry.name);
     omitted.push_back(std::move(entry));
     ++next;
@@ -137,8 +138,9 @@ Result<void> TreeFile::Impl::check_section(std::string_view name, std::uint64_t 
 
 // Every section that this version knows has the size that HEAD gives it, or is missing for a stated reason.
 Result<void> TreeFile::Impl::check_table() const {
-  if (const std::string wrong = check_counts(head); !wrong.empty())
+  if (const std::string wrong = check_counts(head); !wrong.empty()) {
     return file.refuse_section(*file.find("HEAD"), 0, wrong);
+  }
   Result<void> state;
   const auto check = [&](std::string_view name, std::uint64_t count, std::size_t stride, Presence presence) {
     if (state) state = check_section(name, count, stride, presence);
