@@ -45,7 +45,7 @@ class Treedump : public testing::Test {
 
 TEST_F(Treedump, TellsAPersonWhatIsInTheFile) {
   Tree tree = sensitive();
-  tree.provenance = R"({"tool":"treeprep","version":"0.1.0","source":{"path":"oak.glb"}})";
+  tree.provenance = R"({"tool":"treeprep","version":"0.1.0","sources":[{"name":"oak.glb"}]})";
   const Outcome o = dump({save("oak.stree", tree)});
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(o.err, "");

@@ -127,23 +127,20 @@ void add_materials(std::string& out, const Dump& dump) {
   }
 }
 
-// "treeprep 0.1.0 from oak.glb", from the members that a provenance usually has.
+std::string member_text(const nlohmann::json& json, const char* key) {
+  return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
+}
+
+// "treeprep 0.1.0 from oak.glb", from the members that a provenance has (docs/formats.md); other text as it
+// is.
 std::string provenance_text(const std::string& provenance) {
   const auto json = nlohmann::json::parse(provenance, nullptr, false);
   if (!json.is_object()) return provenance.substr(0, 200);
-  const auto text = [&](const char* key) {
-    return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
-  };
-  std::string out = listed({text("tool"), text("version")});
-  std::replace(out.begin(), out.end(), ',', ' ');
-  out.erase(std::unique(out.begin(), out.end(), [](char a, char b) { return a == ' ' && b == ' '; }),
-            out.end());
-  if (json.contains("source") && json["source"].is_object() && json["source"].contains("path") &&
-      json["source"]["path"].is_string()) {
-    out += fmt::format(" from {}", json["source"]["path"].get<std::string>());
-  } else if (!text("source").empty()) {
-    out += fmt::format(" from {}", text("source"));
-  }
+  std::string out = fmt::format("{} {}", member_text(json, "tool"), member_text(json, "version"));
+  const auto sources = json.find("sources");
+  if (sources == json.end() || !sources->is_array() || sources->empty()) return out;
+  out += fmt::format(" from {}", member_text(sources->front(), "name"));
+  if (sources->size() > 1) out += fmt::format(" and {} more", sources->size() - 1);
   return out;
 }
 

@@ -196,6 +196,11 @@ void add_curves(std::string& out, const Report& report) {
   out += "</section>\n";
 }
 
+std::string as_heading(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return escape_html(text);
+}
+
 // Whether a cell reads as a number, so that its column is set flush right.
 bool is_numeric(const std::string& cell) {
   double value = 0;
@@ -213,7 +218,7 @@ void add_tables(std::string& out, const Report& report) {
       }
     }
     out +=
-        fmt::format("<section><h2>{}</h2><div class=\"scroll\"><table><thead><tr>", escape_html(table.name));
+        fmt::format("<section><h2>{}</h2><div class=\"scroll\"><table><thead><tr>", as_heading(table.name));
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       out += fmt::format("<th scope=\"col\"{}>{}</th>", numeric[c] ? " class=\"n\"" : "",
                          escape_html(table.columns[c]));
