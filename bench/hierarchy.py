@@ -3,7 +3,10 @@
 the meshes with truth at ../shared/trees where they are there (those with the scorer that comes with them).
 
 ./run bench hierarchy; prints a row a mesh and ends with the number of rows that are not exact.
+
+  hierarchy.py [--species NAME,...] [--breaks NAME,...] [--no-shared] [--check]     --check: status 1 when a row is not exact
 """
+import argparse
 import json
 import pathlib
 import subprocess
@@ -46,10 +49,10 @@ def row(name, e):
     return not is_exact(e)
 
 
-def grown_rows(folder):
+def grown_rows(folder, only_species, only_breaks):
     print(f"{'treegrow':44s} {'rings':>13s} {'parent':>6s} {'extra':>5s} {'centre':>9s} {'diameter':>9s} {'leaves':>13s}")
-    species = [line.split()[0] for line in run("treegrow", "--list").splitlines() if line.strip()]
-    breaks = [line.split()[0] for line in run("treegrow", "--list-breaks").splitlines() if line.strip()]
+    species = only_species or [line.split()[0] for line in run("treegrow", "--list").splitlines() if line.strip()]
+    breaks = [line.split()[0] for line in run("treegrow", "--list-breaks").splitlines() if line.strip()] if only_breaks is None else only_breaks
     bad = 0
     for s in species:
         bad += row(f"{s}", grown(s, [], folder))
@@ -83,11 +86,23 @@ def shared_rows(folder):
     return bad
 
 
+def names(text):
+    return [n for n in text.split(",") if n]
+
+
 def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--species", type=names, default=[])
+    parser.add_argument("--breaks", type=names)
+    parser.add_argument("--no-shared", action="store_true")
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        bad = shared_rows(folder) + grown_rows(folder)
+        bad = 0 if options.no_shared else shared_rows(folder)
+        bad += grown_rows(folder, options.species, options.breaks)
     print(f"\n{bad} not exact")
+    sys.exit(options.check and bad > 0)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ check() {
 }
 export -f check
 
-git ls-files 'lib/*.cpp' 'tools/*.cpp' 'bench/*.cpp' 'tests/*.cpp' |
+# CGAL's headers are not for clang 19, so the files that see them are left to the compiler.
+git ls-files 'lib/*.cpp' 'tools/*.cpp' 'bench/*.cpp' 'tests/*.cpp' | grep -v '_cgal\.cpp$' |
   while read -r file; do grep -qF "/$file\"" build/release/compile_commands.json && printf '%s\n' "$file"; done |
   xargs -P "$1" -I{} bash -c 'check "$1"' _ {}

@@ -57,6 +57,7 @@ constexpr double k_on_ground = 0.1;         // of the mesh's height: roots and s
 constexpr double k_ground_thickness = 0.1;  // of the mesh's height
 constexpr double k_lowest = 0.02;           // of the mesh's height
 constexpr double k_narrower = 0.8;          // a trunk's width over that of the crown on it
+constexpr double k_lone_sheet = 16;         // a trunk in one open surface is so many times any leaf's area
 constexpr double k_much_narrower = 0.6;     // the same where the crown is as slender as a stem
 constexpr double k_bulky_elongation = 6, k_bulky_fill = 0.3;  // slender crowns
 
@@ -242,6 +243,25 @@ class Rules {
     if (crown && !carried && share <= k_much_narrower) found_[upper.piece] = Finding::carried_stem;
   }
 
+  // A trunk with all its branches in one open surface looks like a sheet; what tells it is that it is far
+  // larger than every other one, unlike any, and stands on the ground.
+  const PlacedPiece* lone_sheet() const {
+    const PlacedPiece* largest = nullptr;
+    double second = 0;
+    for (const PlacedPiece& placed : scan_.placed()) {
+      if (found_[placed.piece] != Finding::sheet) continue;
+      if (!largest || placed.shape.area > largest->shape.area) {
+        second = largest ? largest->shape.area : 0;
+        largest = &placed;
+      } else {
+        second = std::max(second, placed.shape.area);
+      }
+    }
+    if (!largest || second <= 0 || largest->shape.area < k_lone_sheet * second) return nullptr;
+    const bool stands = stands_on_ground(largest->shape) && largest->shape.size >= k_trunk_size * height_;
+    return stands && verdict(largest->piece).kind == NameClass::none ? largest : nullptr;
+  }
+
   // Cards, blobs and no trunk: the largest blob on the ground is one (a baobab).
   void find_stump() {
     bool cards = any_named_leaf_;
@@ -250,7 +270,9 @@ class Rules {
       cards |= found_[p] == Finding::sheet;
     }
     if (!cards) return;
-    const PlacedPiece* largest = nullptr;
+    const PlacedPiece* largest = lone_sheet();
+    if (largest) found_[largest->piece] = Finding::stump;
+    if (largest) return;
     for (const PlacedPiece& placed : scan_.placed()) {
       if (found_[placed.piece] != Finding::blob || verdict(placed.piece).kind != NameClass::none) continue;
       if (!stands_on_ground(placed.shape) || placed.shape.size < k_trunk_size * height_) continue;
