@@ -1,6 +1,8 @@
 #include "tools/treegrow/breaks.h"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -15,6 +17,17 @@ TEST(Breaks, TheTableNamesEachOnceInTheOrderOfTheEnum) {
   for (std::size_t i = 0; i < table.size(); ++i) {
     EXPECT_EQ(static_cast<std::size_t>(table[i].id), i) << table[i].name;
     EXPECT_TRUE(names.insert(table[i].name).second) << table[i].name;
+  }
+}
+
+TEST(Breaks, TheDocsHaveARowForEach) {
+  std::ifstream in(COPSE_SOURCE_DIR "/docs/treegrow.md");
+  const std::string docs{std::istreambuf_iterator<char>(in), {}};
+  static const char* const k_groups[] = {"", "join", "ends", "turned", "leaf", "names", "root"};
+  for (const BreakInfo& info : break_table()) {
+    const std::string row = std::string("| `") + info.name + "` | " + k_groups[static_cast<int>(info.group)] +
+                            " | " + info.what + " | " + info.truth + " |\n";
+    EXPECT_NE(docs.find(row), std::string::npos) << row;
   }
 }
 

@@ -152,28 +152,36 @@ void LayoutMaker::force(std::vector<double>& rings, const Stem& stem, std::span<
   }
 }
 
-// Two rings of their own for each child, as far apart as the child is thick, with nothing in between.
+// Two rings of their own for each child, as far apart as the child is thick, with nothing in between. Where
+// children crowd, patches move up, and down again at the tip: there is room for all of them.
 void LayoutMaker::open_patches(std::vector<double>& rings, const Stem& stem,
                                std::span<const std::uint32_t> children) {
   if (children.empty()) return;
-  const double low = stem.kind == StemKind::root ? rings[1] : rings[0];
-  const double room = (1 - low) * 0.96 / static_cast<double>(children.size());
-  std::vector<double> result(rings.begin(), rings.begin() + (stem.kind == StemKind::root ? 2 : 1));
+  const std::size_t lowest = stem.kind == StemKind::root ? 1 : 0;
+  const double low = rings[lowest], margin = 0.02 * (1 - low);
+  const double room = (1 - low - 2 * margin) / static_cast<double>(children.size());
+  std::vector<double> from, size;
+  double end = low + margin;
+  for (const std::uint32_t child : children) {
+    const Stem& s = skeleton_.stems[child];
+    size.push_back(std::min(2.2 * s.radius / std::max(1e-9, stem.length), 0.6 * room));
+    from.push_back(std::max(end + 0.2 * size.back(), s.parent_at - 0.5 * size.back()));
+    end = from.back() + size.back();
+  }
+  end = 1 - margin;
+  for (std::size_t c = children.size(); c-- > 0;) {
+    from[c] = std::min(from[c], end - size[c]);
+    end = from[c] - 0.2 * size[c];
+  }
+  std::vector<double> result(rings.begin(), rings.begin() + static_cast<std::ptrdiff_t>(lowest) + 1);
   std::size_t next = result.size();
-  double done = low + 0.02 * (1 - low);
   for (std::size_t c = 0; c < children.size(); ++c) {
-    const Stem& child = skeleton_.stems[children[c]];
-    const double size = std::min(2.2 * child.radius / std::max(1e-9, stem.length), 0.6 * room);
-    // Not so high that those which follow find no room.
-    const double limit = 1 - 0.02 * (1 - low) - room * static_cast<double>(children.size() - 1 - c) - size;
-    const double from = std::max(done + 0.2 * size, std::min(child.parent_at - 0.5 * size, limit));
-    for (; next < rings.size() && rings[next] < from - 0.2 * size; ++next)
-      if (rings[next] > result.back() + 0.2 * size) result.push_back(rings[next]);
-    join_at_[children[c]] = from;
-    result.push_back(from);
-    result.push_back(from + size);
-    done = from + size;
-    while (next + 1 < rings.size() && rings[next] < done + 0.2 * size) ++next;
+    for (; next < rings.size() && rings[next] < from[c] - 0.2 * size[c]; ++next)
+      if (rings[next] > result.back() + 0.2 * size[c]) result.push_back(rings[next]);
+    join_at_[children[c]] = from[c];
+    result.push_back(from[c]);
+    result.push_back(from[c] + size[c]);
+    while (next + 1 < rings.size() && rings[next] < result.back() + 0.2 * size[c]) ++next;
   }
   for (; next < rings.size(); ++next) result.push_back(rings[next]);
   rings = std::move(result);

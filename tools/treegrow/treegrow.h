@@ -19,9 +19,9 @@ inline constexpr std::uint64_t k_most_triangles = 100'000'000;  // indices stay 
 struct Order {
   Species species;
   std::uint64_t seed = 0;
-  double height = 0;            // m; 0: the species'
-  std::uint64_t triangles = 0;  // 0: what the species has by itself
-  Breaks breaks;                // none: the strict model
+  double height = 0;                                // m; 0: the species'
+  std::uint64_t triangles = 0;                      // 0: what the species has by itself
+  Breaks breaks;                                    // none: the strict model
   std::uint64_t most_nodes = k_most_nodes;          // of the skeleton
   std::uint64_t most_triangles = k_most_triangles;  // of the mesh
 };
