@@ -382,6 +382,37 @@ TEST(Classify, AMeshThatIsAllNamedLeavesMayStillHaveATrunk) {
   EXPECT_EQ(c.trunk_triangles, 128u);
 }
 
+// Strips of three quads, `below` deep in the ground.
+Builder grass_block(double below) {
+  Builder b;
+  b.part("grass");
+  for (int blade = 0; blade < 6; ++blade) {
+    const Double3 foot{blade * 0.3, -below, 0}, side{0.1, 0, 0.02 * blade};
+    std::uint32_t left = b.point(foot - side), right = b.point(foot + side);
+    for (int i = 1; i <= 3; ++i) {
+      const Double3 bend{0, i * 0.3, i * i * 0.02};
+      const std::uint32_t next_left = b.point(foot - side + bend), next_right = b.point(foot + side + bend);
+      b.triangle(left, right, next_right), b.triangle(left, next_right, next_left);
+      left = next_left, right = next_right;
+    }
+  }
+  return b;
+}
+
+TEST(Classify, BladesOfGrassAreTrunkForTheyMoveFromTheirRoots) {
+  const Classification named = classified(grass_block(0).mesh);
+  EXPECT_EQ(named.trunk_triangles, 36u);
+  EXPECT_EQ(named.components[0].reason,
+            "object 'grass' says grass, and it is a blade of 6 triangles that stands on the ground, one of 6 "
+            "alike");
+  Mesh unnamed = grass_block(0.02).mesh;
+  for (Part& part : unnamed.parts) part.object.clear();
+  EXPECT_EQ(classified(unnamed).trunk_triangles, 36u);
+  Mesh on_the_ground = grass_block(0).mesh;
+  for (Part& part : on_the_ground.parts) part.object.clear();
+  EXPECT_EQ(classified(on_the_ground).leaf_count, 6u);  // as good as a fern
+}
+
 TEST(Classify, ReasonsOutliveTheClassificationTheyCameFrom) {
   Classification copy;
   {

@@ -91,6 +91,15 @@ TEST(NameWords, ALeafWordBeatsAWeakTrunkWordAndEqualsCancel) {
   EXPECT_TRUE(trunk("bush_bark"));
 }
 
+TEST(NameWords, GrassIsAWeakLeafWordOfItsOwn) {
+  for (const char* name : {"grass_01", "Gras", "\u0442\u0440\u0430\u0432\u0430", "\u8349"}) {
+    EXPECT_TRUE(weak_leaf(name)) << name;
+    EXPECT_TRUE(name_hint(name).grass) << name;
+  }
+  EXPECT_FALSE(name_hint("crown").grass);
+  EXPECT_FALSE(name_hint("grass_leaf").grass);
+}
+
 TEST(NameWords, NamesTheWordThatItFound) {
   EXPECT_EQ(name_hint("Bark_NormalTree").word, "bark");
   EXPECT_EQ(name_hint("oakleaves").word, "leaves");

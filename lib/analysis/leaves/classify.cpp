@@ -8,6 +8,7 @@
 #include "lib/analysis/trunk/weld.h"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 namespace copse {
@@ -39,12 +40,23 @@ Indices keys_of_parts(const Mesh& mesh, const std::vector<PartVerdict>& verdicts
 // computed twice would pass for a sheet otherwise. Cards need no such care, and they are the many. Answers
 // whether anything was welded.
 bool weld_borders(const Mesh& mesh, const PieceScan& scan, Indices& welded) {
+  // The vertices of these pieces alone, under numbers of their own.
+  Indices number(mesh.positions.size(), k_none), vertices;
   std::vector<Triangle> triangles;
-  std::vector<std::uint8_t> on_border(mesh.positions.size(), 0);
+  std::vector<std::uint8_t> on_border;
+  const auto number_of = [&](std::uint32_t v) {
+    std::uint32_t& n = number[welded[v]];
+    if (n == k_none) {
+      n = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(welded[v]);
+      on_border.push_back(0);
+    }
+    return n;
+  };
   scan.for_each_bent_piece([&](std::span<const std::uint32_t> piece) {
     for (const std::uint32_t t : piece) {
       const Triangle& v = mesh.triangles[t];
-      triangles.push_back({welded[v[0]], welded[v[1]], welded[v[2]]});
+      triangles.push_back({number_of(v[0]), number_of(v[1]), number_of(v[2])});
       for (int e = 0; e < 3; ++e) {
         if (!(scan.pieces().edges[t] & Pieces::border_0 << e)) continue;
         on_border[triangles.back()[e]] = on_border[triangles.back()[(e + 1) % 3]] = 1;
@@ -52,22 +64,15 @@ bool weld_borders(const Mesh& mesh, const PieceScan& scan, Indices& welded) {
     }
   });
   if (triangles.empty()) return false;
-  const std::vector<double> tolerances = weld_tolerances(mesh.positions, triangles);
-  Indices vertices;
   std::vector<Double3> positions;
-  std::vector<double> reach;
-  for (std::uint32_t v = 0; v < on_border.size(); ++v) {
-    if (!on_border[v]) continue;
-    vertices.push_back(v);
-    positions.push_back(mesh.positions[v]);
-    reach.push_back(tolerances[v]);
-  }
+  for (const std::uint32_t v : vertices) positions.push_back(mesh.positions[v]);
+  std::vector<double> reach = weld_tolerances(positions, triangles);
+  for (std::size_t i = 0; i < reach.size(); ++i) reach[i] *= on_border[i];
   const Indices joined = weld(positions, reach);
   bool changed = false;
   for (std::uint32_t i = 0; i < joined.size(); ++i) {
-    if (joined[i] == i) continue;
     welded[vertices[i]] = vertices[joined[i]];
-    changed = true;
+    changed |= joined[i] != i;
   }
   // A representative may have moved on: whoever pointed to it follows.
   if (changed) {
@@ -102,10 +107,13 @@ Classification classify_pieces(const Mesh& mesh, Indices& welded, bool refine,
   const auto scan_pieces = [&] {
     return PieceScan(mesh, welded, edge_pieces(mesh.triangles, welded, mesh.part_of, keys), verdicts);
   };
-  PieceScan scan = scan_pieces();
-  if (refine && weld_borders(mesh, scan, welded)) scan = scan_pieces();
-  Classification out = collect(mesh, scan, classify_pieces_by_rule(mesh, welded, scan, verdicts));
-  out.component_of = std::move(scan).take_piece_of();
+  std::optional<PieceScan> scan(scan_pieces());
+  if (refine && weld_borders(mesh, *scan, welded)) {
+    scan.reset();  // first: there may be millions of pieces
+    scan.emplace(scan_pieces());
+  }
+  Classification out = collect(mesh, *scan, classify_pieces_by_rule(mesh, welded, *scan, verdicts));
+  out.component_of = std::move(*scan).take_piece_of();
   return out;
 }
 

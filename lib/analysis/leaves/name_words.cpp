@@ -43,13 +43,17 @@ constexpr std::string_view k_leaf_words =
     "\u0445\u0432\u043e\u044f \u0438\u0433\u043e\u043b\u043a\u0438 \u0446\u0432\u0435\u0442\u044b "
     "lehti lehdet lehvasto neulanen neulaset yaprak yapraklar cicek";
 constexpr std::string_view k_weak_leaf_words =
-    "crown crowns krone kronen cime copa grass fruit fruits berry berries bush shrub hedge cards card "
+    "crown crowns krone kronen cime copa fruit fruits berry berries bush shrub hedge cards card "
     "billboard billboards bud buds";
+constexpr std::string_view k_grass_words =
+    "grass grasses reed reeds straw gras graser graeser schilf halm halme herbe herbes roseau roseaux hierba "
+    "hierbas pasto grama erba trawa trava trawy \u0442\u0440\u0430\u0432\u0430 ruoho heina";
 // Scripts without spaces: found anywhere in a word.
 constexpr std::string_view k_trunk_signs =
     "\u6811\u5e72 \u6a39\u5e79 \u6811\u76ae \u6a39\u76ae \u5e79 \u30df\u30ad \u307f\u304d \uc904\uae30 "
     "\uaecd\uc9c8";
 constexpr std::string_view k_weak_trunk_signs = "\u679d \u6811\u679d \uac00\uc9c0";
+constexpr std::string_view k_grass_signs = "\u8349";
 constexpr std::string_view k_leaf_signs =
     "\u53f6 \u8449 \u82b1 \u306f\u3063\u3071 \u30cf\u30c3\u30d1 \uc78e \uaf43";
 // What stands beside the words above in a compound and says nothing itself.
@@ -68,6 +72,7 @@ struct Entry {
   NameClass kind = NameClass::none;
   bool strong = false;
   bool neutral = false;
+  bool grass = false;
 };
 using Dictionary = std::unordered_map<std::string_view, Entry>;
 
@@ -90,6 +95,7 @@ const Dictionary& dictionary() {
     add(k_weak_trunk_words, {NameClass::trunk, false, false});
     add(k_leaf_words, {NameClass::leaf, true, false});
     add(k_weak_leaf_words, {NameClass::leaf, false, false});
+    add(k_grass_words, {NameClass::leaf, false, false, true});
     add(k_neutral_words, {NameClass::none, false, true});
     return words;
   }();
@@ -199,6 +205,8 @@ NameHint hint_of_signs(std::string_view word) {
     hint.kind = NameClass::trunk, hint.strong = true;
   } else if (find_sign(k_weak_trunk_signs, word, hint.word)) {
     hint.kind = NameClass::trunk;
+  } else if (find_sign(k_grass_signs, word, hint.word)) {
+    hint.kind = NameClass::leaf, hint.grass = true;
   }
   return hint;
 }
@@ -206,7 +214,7 @@ NameHint hint_of_signs(std::string_view word) {
 // The word itself, or what is left of it without one neutral word in front and one behind.
 NameHint hint_of_word(std::string_view word) {
   const Entry whole = look_up(word);
-  if (whole.kind != NameClass::none) return {whole.kind, whole.strong, std::string(word)};
+  if (whole.kind != NameClass::none) return {whole.kind, whole.strong, std::string(word), whole.grass};
   if (whole.neutral) return {};
   constexpr std::size_t k_shortest = 3, k_longest = 32;  // of a part of a compound, of a compound
   if (word.size() > k_longest) return {};
@@ -216,7 +224,7 @@ NameHint hint_of_word(std::string_view word) {
       if (end < word.size() && !look_up(word.substr(end)).neutral) continue;
       const std::string_view part = word.substr(begin, end - begin);
       const Entry entry = look_up(part);
-      if (entry.kind != NameClass::none) return {entry.kind, entry.strong, std::string(part)};
+      if (entry.kind != NameClass::none) return {entry.kind, entry.strong, std::string(part), entry.grass};
     }
   }
   return {};

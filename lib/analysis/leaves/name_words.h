@@ -16,6 +16,8 @@ struct NameHint {
   // or a card with a branch painted on it; "crown", "grass"): shape may overrule them.
   bool strong = false;
   std::string word;  // as listed, lower case, without accents
+  bool grass =
+      false;  // a weak word for what is all leaf, yet moves from its root like a trunk: "grass", "reed"
 };
 
 // A name's words: split where letters meet anything else, at aB and at ABc; lower case, Latin letters without

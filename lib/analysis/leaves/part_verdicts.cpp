@@ -76,8 +76,8 @@ PartVerdict named(const Mesh& mesh, const Part& part) {
   for (const auto& [what, name] : names_of(mesh, part)) {
     const NameHint hint = name_hint(name);
     if (hint.kind == NameClass::none) continue;
-    return {hint.kind, hint.strong ? Binding::firm : Binding::weak,
-            std::string(what) + " '" + name + "' says " + hint.word};
+    std::string reason = std::string(what) + " '" + name + "' says " + hint.word;
+    return {hint.kind, hint.strong ? Binding::firm : Binding::weak, reason, hint.grass ? reason : ""};
   }
   return {};
 }
@@ -95,7 +95,7 @@ void loosen_what_all_bear(std::vector<PartVerdict>& verdicts, const std::vector<
   }
   if (trunk + leaf + nothing > 1) return;
   for (PartVerdict& verdict : verdicts) {
-    if (!firm) verdict = {};
+    if (!firm) verdict = {NameClass::none, Binding::none, "", std::move(verdict.grass)};
     if (verdict.binding == Binding::firm) verdict.binding = Binding::whole;
   }
 }
@@ -121,8 +121,8 @@ Result<std::vector<PartVerdict>> part_verdicts(const Mesh& mesh, const ClassifyO
     if (!as_trunk.empty() && !as_leaf.empty()) {
       return fail(Fault::usage, "", as_trunk + " and " + as_leaf, "make the patterns exclude each other");
     }
-    if (!as_trunk.empty()) verdicts[p] = {NameClass::trunk, Binding::firm, as_trunk};
-    if (!as_leaf.empty()) verdicts[p] = {NameClass::leaf, Binding::firm, as_leaf};
+    if (!as_trunk.empty()) verdicts[p] = {NameClass::trunk, Binding::firm, as_trunk, ""};
+    if (!as_leaf.empty()) verdicts[p] = {NameClass::leaf, Binding::firm, as_leaf, ""};
   }
   return verdicts;
 }

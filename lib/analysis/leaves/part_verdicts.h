@@ -24,7 +24,8 @@ enum class Binding : std::uint8_t {
 struct PartVerdict {
   NameClass kind = NameClass::none;
   Binding binding = Binding::none;
-  std::string reason;  // "material 'Bark_NormalTree' says bark"; empty when nothing is said
+  std::string reason{};  // "material 'Bark_NormalTree' says bark"; empty when nothing is said
+  std::string grass{};   // "object 'grass' says grass": kept where the verdict is loosened; empty when not
 };
 
 // One a part of the mesh. A material's name counts before the group's, and that before the object's: the

@@ -14,6 +14,7 @@ enum class Finding : std::uint8_t {
   few_sheets,    // trunk: in a mesh that is all named trunk, a sheet or a few are bark
   cap,           // trunk
   ground,        // trunk
+  blade,         // trunk: grass moves from its root, each blade a strip of its own (thesis 5.6)
   stem,          // trunk
   needle,        // leaf
   carried_stem,  // leaf: a slender crown
@@ -33,6 +34,7 @@ bool is_trunk(Finding f, NameClass named) {
     case Finding::few_sheets:
     case Finding::cap:
     case Finding::ground:
+    case Finding::blade:
     case Finding::stem:
     case Finding::named_blob:
     case Finding::brown_blob:
@@ -108,12 +110,23 @@ class Rules {
       if (v.kind == NameClass::trunk) return Finding::named_blob;
       return v.kind == NameClass::none && found_.size() == 1 ? Finding::only_piece : Finding::blob;
     }
+    if (is_blade(p)) return Finding::blade;
     const bool bark = v.kind == NameClass::trunk && v.binding == Binding::whole;
     return bark && scan_.alike(p) < k_many ? Finding::few_sheets : Finding::sheet;
   }
 
+  // Named grass, or a mesh that is nothing but strips rooted as the thesis asks.
+  bool is_blade(std::uint32_t p) const {
+    const PieceFact& fact = scan_.fact(p);
+    if (verdict(p).grass.empty()) return all_rooted_strips_;
+    return fact.strip && fact.stands;
+  }
+
   void look_at_materials() {
+    constexpr std::size_t k_blade_triangles = 4;  // without a name; fewer are cards
     for (std::uint32_t p = 0; p < found_.size(); ++p) {
+      all_rooted_strips_ = all_rooted_strips_ && scan_.fact(p).rooted && verdict(p).kind == NameClass::none &&
+                           triangle_count(p) >= k_blade_triangles;
       if (scan_.fact(p).decided) {
         any_named_leaf_ |= verdict(p).kind == NameClass::leaf;
         continue;
@@ -288,6 +301,7 @@ class Rules {
   std::vector<Finding> found_;
   double height_ = 0, ground_ = 0;
   bool any_sheet_ = false, any_named_leaf_ = false, any_green_ = false;
+  bool all_rooted_strips_ = true;
 };
 
 // --- words -----------------------------------------------------------------------------------------------
@@ -313,6 +327,8 @@ std::string describe(Finding f, const PieceFact& fact, std::size_t n) {
       return counted("a cap", n) + " whose border lies on trunk";
     case Finding::ground:
       return counted("a ground plate", n) + ": flat, wide and lowest";
+    case Finding::blade:
+      return counted("a blade", n) + " that stands on the ground";
     case Finding::stem:
       return counted("a stem", n) + ": long for its thickness";
     case Finding::needle:
@@ -373,6 +389,7 @@ class Reasons {
     std::string words = describe(f, scan_.fact(piece), n);
     const std::uint32_t alike = scan_.alike(piece);
     if (alike > 1) words += ", one of " + std::to_string(alike) + " alike";
+    if (f == Finding::blade && !v.grass.empty()) return v.grass + ", and it is " + words;
     if (v.kind == NameClass::none) return words;
     const bool agrees = is_trunk(f, v.kind) == (v.kind == NameClass::trunk);
     return v.reason + (agrees ? ", and it is " : ", but it is ") + words;

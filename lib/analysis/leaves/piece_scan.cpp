@@ -1,11 +1,13 @@
 #include "lib/analysis/leaves/piece_scan.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace copse {
 namespace {
 
-constexpr double k_wide = 0.5;  // of the mesh, along x and along z
+constexpr double k_wide = 0.5;       // of the mesh, along x and along z
+constexpr double k_on_ground = 0.1;  // of the mesh's height
 
 bool is_wide(const DoubleBox& piece, const DoubleBox& mesh) {
   return piece.extent().x >= k_wide * mesh.extent().x && piece.extent().z >= k_wide * mesh.extent().z;
@@ -20,6 +22,28 @@ bool lies_on_others(const Pieces& pieces, std::span<const std::uint32_t> triangl
     any |= border != 0;
   }
   return any;
+}
+
+// Triangles one after the other, each with a side on the border, two of them (the ends) with two.
+bool is_strip(const Pieces& pieces, std::span<const std::uint32_t> triangles) {
+  std::size_t ends = 0;
+  for (const std::uint32_t t : triangles) {
+    const int sides = std::popcount(pieces.edges[t] & 7u);
+    if (sides < 1 || sides > 2) return false;
+    ends += sides == 2;
+  }
+  return ends == 2;
+}
+
+bool has_side_below_zero(const Mesh& mesh, const Pieces& pieces, std::span<const std::uint32_t> triangles) {
+  for (const std::uint32_t t : triangles) {
+    for (int e = 0; e < 3; ++e) {
+      const Triangle& v = mesh.triangles[t];
+      const bool border = (pieces.edges[t] & Pieces::border_0 << e) != 0;
+      if (border && mesh.positions[v[e]].y < 0 && mesh.positions[v[(e + 1) % 3]].y < 0) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -49,6 +73,9 @@ PieceFact PieceScan::read(const Mesh& mesh, std::span<const std::uint32_t> welde
   if (shape.kind == ShapeKind::sheet) {
     fact.layered = shape.border_ratio == 0 && !shape.solid && shape.area > 0;
     fact.capped = lies_on_others(pieces_, triangles);
+    fact.strip = is_strip(pieces_, triangles);
+    fact.stands = shape.box.min.y <= bounds_.min.y + k_on_ground * bounds_.extent().y;
+    fact.rooted = fact.strip && has_side_below_zero(mesh, pieces_, triangles);
   }
   if (shape.kind != ShapeKind::sheet || is_wide(shape.box, bounds_)) placed_.push_back({piece, shape});
   std::vector<std::uint32_t>& count = alike_[static_cast<int>(shape.kind)];

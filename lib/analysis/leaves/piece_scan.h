@@ -20,6 +20,10 @@ struct PieceFact {
   ShapeKind shape = ShapeKind::sheet;
   bool planar = false, solid = false, layered = false;  // layered: a sheet without a border
   bool capped = false;  // a sheet all of whose border lies on triangles of other keys
+  // Sheets only. A strip is a row of triangles, each with a side on the border; it stands when it reaches
+  // down to the lowest tenth of the mesh, and is rooted when a whole side of it lies below y = 0
+  // (thesis 2.1).
+  bool strip = false, stands = false, rooted = false;
 };
 
 // The pieces whose place matters: stems, blobs, and sheets half as wide as the mesh.
