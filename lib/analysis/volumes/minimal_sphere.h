@@ -9,6 +9,7 @@
 #pragma once
 
 #include "lib/formats/vec.h"
+#include "lib/formats/volume.h"
 
 #include <array>
 #include <cstdint>
@@ -16,15 +17,8 @@
 
 namespace copse {
 
-struct Sphere {
-  Double3 centre;
-  double radius = 0;
-};
-
-struct StoredSphere {
-  Float3 centre;
-  float radius = 0;
-};
+using Sphere = BoundingSphere<double>;
+using StoredSphere = BoundingSphere<float>;
 
 // The smallest ball of at most four balls (points: radius 0), enlarged one by one. Callers that do not hold
 // their points in one array (a hierarchy, a stream) drive it themselves: include the farthest until it is

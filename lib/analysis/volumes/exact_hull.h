@@ -1,0 +1,21 @@
+// The hull of points that do not lie in one plane, by exact predicates: what convex_hull is built on.
+#pragma once
+
+#include "lib/formats/vec.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace copse {
+
+struct ExactHull {
+  std::vector<std::uint32_t> vertices;              // indices of the points, ascending
+  std::vector<std::array<std::uint32_t, 3>> faces;  // of `vertices`, counter-clockwise from outside, sorted
+};
+
+// `points`: distinct, in lexicographic order, four of them not in one plane (else the hull is empty).
+ExactHull exact_hull(std::span<const Double3> points);
+
+}  // namespace copse

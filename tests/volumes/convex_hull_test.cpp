@@ -1,0 +1,124 @@
+#include "lib/analysis/volumes/convex_hull.h"
+
+#include "lib/formats/random.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+using Points = std::vector<Double3>;
+
+ConvexHull hull_of(const Points& points) {
+  return convex_hull(make_point_cloud(points).value());
+}
+
+double outside_of(const ConvexHull& hull, const Double3& p) {
+  double worst = 0;
+  for (const auto& f : hull.faces) {
+    const Double3& a = hull.vertices[f[0]];
+    const Double3 n = normalized(cross(hull.vertices[f[1]] - a, hull.vertices[f[2]] - a));
+    worst = std::max(worst, dot(n, p - a));
+  }
+  return worst;
+}
+
+Points random_points(std::uint64_t seed, int n, const Double3& size) {
+  Random random(seed);
+  Points points;
+  for (int i = 0; i < n; ++i) {
+    points.push_back({size.x * random.uniform(), size.y * random.uniform(), size.z * random.uniform()});
+  }
+  return points;
+}
+
+TEST(ConvexHull, OfACubeHasItsCornersFacesAndMeasures) {
+  Points points;
+  for (int i = 0; i < 8; ++i) points.push_back({i & 1 ? 3. : 2., i & 2 ? 5. : 4., i & 4 ? 7. : 6.});
+  const ConvexHull hull = hull_of(points);
+  EXPECT_EQ(hull.dimension, 3);
+  EXPECT_EQ(hull.vertices.size(), 8u);
+  EXPECT_EQ(hull.faces.size(), 12u);
+  EXPECT_EQ(hull.edges.size(), 18u);
+  EXPECT_NEAR(hull.frame.volume_out(hull.volume), 1, 1e-15);
+  EXPECT_NEAR(hull.area * hull.frame.scale * hull.frame.scale, 6, 1e-15);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(hull.frame.out(hull.vertices[i]), points[hull.indices[i]]);
+}
+
+TEST(ConvexHull, HoldsEveryPointAndItsEdgesJoinTheirFaces) {
+  for (const Double3 size :
+       {Double3{1, 1, 1}, Double3{1, 1, 1e-6}, Double3{1, 1e-6, 1e-6}, Double3{1, 1, 1e-12}}) {
+    const Points points = random_points(7, 500, size);
+    const PointCloud cloud = make_point_cloud(points).value();
+    const ConvexHull hull = convex_hull(cloud);
+    ASSERT_EQ(hull.dimension, 3);
+    for (const Double3& p : cloud.points) EXPECT_LE(outside_of(hull, p), 1e-15);
+    ASSERT_EQ(hull.vertices.size() + hull.faces.size(), hull.edges.size() + 2);
+    for (const HullEdge& e : hull.edges) {
+      EXPECT_LT(e.a, e.b);
+      EXPECT_NE(e.left, e.right);
+      for (const std::uint32_t f : {e.left, e.right}) {
+        EXPECT_EQ(std::count(hull.faces[f].begin(), hull.faces[f].end(), e.a), 1);
+        EXPECT_EQ(std::count(hull.faces[f].begin(), hull.faces[f].end(), e.b), 1);
+      }
+    }
+  }
+}
+
+TEST(ConvexHull, FindsTheDimensionAndAFrameOfFlatPoints) {
+  EXPECT_EQ(hull_of({{4, 5, 6}}).dimension, 0);
+  EXPECT_EQ(hull_of(Points(100, {1e9, 5, 6})).vertices.size(), 1u);
+  Points line, circle;
+  for (int i = 0; i < 50; ++i) line.push_back(Double3{0.1, 0.2, 0.3} * double(i));
+  const ConvexHull l = hull_of(line);
+  EXPECT_EQ(l.dimension, 1);
+  ASSERT_EQ(l.vertices.size(), 2u);
+  EXPECT_EQ(l.frame.out(l.vertices[1]), line.back());
+  EXPECT_NEAR(std::abs(dot(l.axes[0], normalized({1, 2, 3}))), 1, 1e-15);
+  const Double3 u = normalized({1, 2, 3}), v = normalized(cross(u, {0, 0, 1}));
+  for (int i = 0; i < 64; ++i) {
+    const double a = i * std::numbers::pi / 32;
+    circle.push_back(u * std::cos(a) + v * std::sin(a));
+    circle.push_back((u * std::cos(a) + v * std::sin(a)) * 0.9);
+  }
+  const ConvexHull c = hull_of(circle);
+  EXPECT_EQ(c.dimension, 2);
+  EXPECT_EQ(c.vertices.size(), 64u);
+  EXPECT_EQ(c.edges.size(), 64u);
+  EXPECT_NEAR(std::abs(dot(c.axes[2], cross(u, v))), 1, 1e-14);
+  for (const ConvexHull& h : {l, c}) {
+    EXPECT_NEAR(length(cross(h.axes[0], h.axes[1]) - h.axes[2]), 0, 1e-15);
+    EXPECT_NEAR(length(h.axes[1]), 1, 1e-15);
+  }
+}
+
+TEST(ConvexHull, NearlyFlatPointsAreStillSpace) {
+  Points points = random_points(3, 200, {1, 1, 0});
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].z = 1e-13 * double(i % 7);
+  EXPECT_EQ(hull_of(points).dimension, 3);
+}
+
+TEST(ConvexHull, DoesNotDependOnTheOrderOrRepetitionOfThePoints) {
+  Points points = random_points(5, 3000, {3, 2, 1});
+  for (int i = 0; i < 1000; ++i) points.push_back({i % 10 * .3, i / 10 % 10 * .2, i / 100 * .1});  // coplanar
+  const ConvexHull hull = hull_of(points);
+  Random random(1);
+  for (int round = 0; round < 3; ++round) {
+    points.push_back(points[17 * round]);
+    random.shuffle(std::span(points));
+    const ConvexHull other = hull_of(points);
+    EXPECT_EQ(other.vertices, hull.vertices);
+    EXPECT_EQ(other.faces, hull.faces);
+    EXPECT_EQ(other.edges, hull.edges);
+    EXPECT_EQ(other.boundary, hull.boundary);
+    EXPECT_EQ(other.volume, hull.volume);
+    EXPECT_EQ(other.loss, hull.loss);
+  }
+}
+
+}  // namespace
+}  // namespace copse
