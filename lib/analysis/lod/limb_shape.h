@@ -1,0 +1,87 @@
+// A limb as a tube with any number of rings and sides: what a generalized cylinder looks like when rings
+// along its axis are left out and those that stay get fewer sides.
+#pragma once
+
+#include "lib/analysis/lod/limb_chains.h"
+#include "lib/analysis/lod/part_triangles.h"
+#include "lib/analysis/lod/spectrum_builder.h"
+#include "lib/formats/tree.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace copse {
+
+// One side of a ring as the mesh has it: the angles of its ends and their texture coordinates in one segment.
+struct RingSide {
+  double from = 0, to = 0;  // radians in the ring's frame, from < to <= from + 2 pi
+  Float2 at_from, at_to;
+};
+
+struct RingShape {
+  Double3 centre, x, y, axis;  // right-handed frame; the ring lies across the axis
+  double radius = 0;           // mean
+  double perimeter = 0;        // of the polygon, or of the circle where there is none
+  double phase = 0;            // angle of the first vertex of a ring that is made: at the seam of the texture
+  double residual = 0;         // rms distance of the ring's vertices from its polygon or circle
+  std::uint32_t sides = 0;     // of the polygon; 0: a circle stands for it
+  std::vector<std::pair<double, Double3>> polygon;  // angle and place, by ascending angle
+};
+
+class LimbShape {
+ public:
+  // `centres`: absolute_centres(tree); `trunk`: trunk_triangles(tree). They must outlive this.
+  LimbShape(const Tree& tree, const std::vector<Double3>& centres, const PartTriangles& trunk,
+            const LimbChain& limb);
+
+  std::size_t ring_count() const { return rings_.size(); }
+  const RingShape& ring(std::size_t i) const { return rings_[i]; }
+  double length_between(std::size_t a, std::size_t b) const { return along_[b] - along_[a]; }
+  // Whether the triangles of interval i (between rings i and i + 1) are a plain band, with at most a lid.
+  bool regular(std::size_t i) const { return regular_[i]; }
+  bool regular() const;
+  std::uint32_t sides() const;  // the most of any ring; 3 at least
+  // Whether the last ring is (nearly) a point, so that the last interval ends in a cone.
+  bool pointed() const { return pointed_; }
+  bool capped() const { return capped_; }
+  std::uint32_t material(std::size_t interval) const;
+
+  // Mean distance, times length, between the tube that goes straight from ring a to ring b and the rings that
+  // it leaves out: square metres of silhouette. Looks at no more than 16 of them.
+  double area_error(std::size_t a, std::size_t b) const;
+  // The largest distance of the same.
+  double largest_error(std::size_t a, std::size_t b) const;
+
+  // Triangles of the tube through the kept rings (ascending, first and last among them): `sides` >= 3 is a
+  // closed tube, 2 a flat ribbon.
+  std::uint32_t triangles(std::size_t kept, std::uint32_t sides) const;
+
+  // The vertices of ring i with so many sides as they are in interval `interval` (i or i - 1): sides + 1, the
+  // last one where the first one is (the seam).
+  std::vector<SpectrumVertex> ring_vertices(std::size_t i, std::size_t interval, std::uint32_t sides,
+                                            double ribbon_angle) const;
+
+ private:
+  void make_frames(const std::vector<Double3>& centres);
+  void read_ring(std::size_t i);
+  void read_sides(std::size_t interval);
+  void choose_phases();
+  double angle(std::size_t i, const Double3& p) const;
+  Double3 sample(std::size_t i, double angle) const;
+  Float2 texcoord(std::size_t i, std::size_t interval, double angle, double towards) const;
+  void errors(std::size_t a, std::size_t b, double& area, double& largest) const;
+
+  const Tree& tree_;
+  const PartTriangles& trunk_;
+  const LimbChain& limb_;
+  std::vector<RingShape> rings_;
+  std::vector<double> along_;
+  std::vector<std::array<std::vector<RingSide>, 2>> sides_;  // of every interval, at its two rings
+  std::vector<std::array<Float2, 2>> any_texcoord_;          // of every interval, at its two rings
+  std::vector<std::uint8_t> regular_;
+  bool pointed_ = false, capped_ = false;
+};
+
+}  // namespace copse

@@ -1,0 +1,64 @@
+// Levels of detail at run time: which level, and the index list to draw it with.
+//
+// Source: digest 003 sections 3.2, 3.3, 8.5 and its hazards H-07 to H-10; digest 001 section 7. No call
+// allocates.
+#pragma once
+
+#include "lib/formats/spectrum.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace copse {
+
+// A spectrum made ready for drawing: built once when a tree is loaded.
+class LevelExtractor {
+ public:
+  // Keeps a reference to `spectrum`.
+  explicit LevelExtractor(const Spectrum& spectrum);
+
+  // Writes the indices of what is drawn after `steps` steps (clamped), three a triangle; returns how many.
+  // `out` must hold capacity() indices. Material after material in the order of materials(). Cost: the
+  // indices that are written, and a look at each element that is made later.
+  std::size_t extract(std::uint32_t steps, std::span<std::uint32_t> out) const;
+  // The same for the elements of one material: indices of them alone.
+  std::size_t extract(std::uint32_t steps, std::uint32_t material, std::span<std::uint32_t> out) const;
+
+  std::size_t capacity() const { return capacity_; }
+  const std::vector<std::uint32_t>& materials() const { return materials_; }  // ascending
+
+ private:
+  static constexpr std::uint32_t k_block = 64;  // elements
+  // Elements of one material by descending death. `uniform`: triangles of each, 0 when they differ.
+  struct Run {
+    std::uint32_t material = 0, first = 0, end = 0, uniform = 0;
+  };
+  std::size_t extract_run(const Run& run, std::uint32_t steps, std::uint32_t* out) const;
+
+  const Spectrum* spectrum_;
+  std::vector<Run> runs_;
+  std::vector<std::uint32_t> births_, deaths_;  // in the order of the runs
+  std::vector<std::uint32_t> first_index_;      // elements + 1
+  std::vector<std::uint32_t> indices_;
+  std::vector<std::uint32_t> low_birth_, high_birth_;  // of every k_block elements
+  std::vector<std::uint32_t> materials_;
+  std::size_t capacity_ = 0;
+};
+
+// The level of the schedule with at most so many triangles (the coarsest when none has), in between its
+// knots.
+LodLevel level_of_triangles(const LodSpectra& spectra, std::uint64_t triangles);
+// The coarsest level of the schedule whose error is at most `error` metres.
+LodLevel level_of_error(const LodSpectra& spectra, double error);
+// Continuous detail by distance: full up to `near`, the coarsest from `far` on; in between the triangles fall
+// with the square of the distance, as the size on screen does (hazard H-11). Not a number: full detail.
+LodLevel level_of_distance(const LodSpectra& spectra, double distance);
+
+// The discrete level to draw at a distance: 0 is full detail, i + 1 is spectra.discrete[i]. `current` is what
+// was drawn before: going coarser needs a distance beyond (1 + h) times the border, going finer one below (1
+// - h) times it (digest 003, section 3.3). A `current` that does not exist counts as none: the level is that
+// of the borders.
+std::uint32_t choose_discrete(const LodSpectra& spectra, double distance, std::uint32_t current);
+
+}  // namespace copse

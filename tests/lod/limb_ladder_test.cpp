@@ -1,0 +1,53 @@
+#include "lib/analysis/lod/limb_ladder.h"
+
+#include "tests/lod/tube_tree.h"
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+std::vector<LimbRung> ladder_of(const Tree& tree) {
+  const std::vector<Double3> centres = absolute_centres(tree);
+  const PartTriangles trunk = trunk_triangles(tree);
+  const std::vector<LimbChain> chains = limb_chains(tree);
+  const LimbShape shape(tree, centres, trunk, chains.at(0));
+  std::uint32_t full = 0;
+  for (const std::uint32_t s : chains[0].segments)
+    full +=
+        static_cast<std::uint32_t>(tree.first_triangle_of_segment(s + 1) - tree.first_triangle_of_segment(s));
+  return limb_ladder(shape, std::vector<std::uint8_t>(shape.ring_count()), full, 1.3);
+}
+
+TEST(LimbLadder, EndsInNothingAndHasNoFloor) {
+  const std::vector<LimbRung> ladder = ladder_of(stem_with_twigs(20, 8, 0));
+  ASSERT_FALSE(ladder.empty());
+  EXPECT_EQ(ladder.back().triangles, 0u);
+  EXPECT_TRUE(ladder.back().kept.empty());
+}
+
+TEST(LimbLadder, TrianglesFallAndEachSavingCostsMoreThanTheOneBefore) {
+  Tube tube;
+  std::uint32_t before = k_none;
+  for (int i = 0; i < 30; ++i)
+    before = tube.add_ring({std::sin(i * 0.3), i * 0.5, std::cos(i * 0.2)}, 0.3 - 0.008 * i, 9, before);
+  const std::vector<LimbRung> ladder = ladder_of(tree_of(tube));
+  ASSERT_GT(ladder.size(), 5u);
+  for (std::size_t i = 2; i < ladder.size(); ++i) {
+    ASSERT_LT(ladder[i].triangles, ladder[i - 1].triangles);
+    const double now =
+        (ladder[i].cost - ladder[i - 1].cost) / (ladder[i - 1].triangles - ladder[i].triangles);
+    const double then =
+        (ladder[i - 1].cost - ladder[i - 2].cost) / (ladder[i - 2].triangles - ladder[i - 1].triangles);
+    EXPECT_GE(now, then - 1e-12) << i;
+  }
+}
+
+TEST(LimbLadder, AStraightStemLosesItsInnerRingsFirst) {
+  const std::vector<LimbRung> ladder = ladder_of(stem_with_twigs(20, 8, 0));
+  EXPECT_EQ(ladder.front().kept.size(), 2u);  // rings that cost nothing go at once
+  EXPECT_EQ(ladder.front().sides, 8u);
+}
+
+}  // namespace
+}  // namespace copse

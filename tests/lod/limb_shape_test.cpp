@@ -1,0 +1,80 @@
+#include "lib/analysis/lod/limb_shape.h"
+
+#include "tests/lod/tube_tree.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+struct Limb {
+  Tree tree;
+  std::vector<Double3> centres;
+  PartTriangles trunk;
+  std::vector<LimbChain> chains;
+  LimbShape shape;
+  explicit Limb(Tree of)
+      : tree(std::move(of)),
+        centres(absolute_centres(tree)),
+        trunk(trunk_triangles(tree)),
+        chains(limb_chains(tree)),
+        shape(tree, centres, trunk, chains.at(0)) {}
+};
+
+double perimeter(const std::vector<SpectrumVertex>& ring) {
+  double sum = 0;
+  for (std::size_t j = 0; j + 1 < ring.size(); ++j)
+    sum += distance(to_double(ring[j].position), to_double(ring[j + 1].position));
+  return sum;
+}
+
+TEST(LimbShape, ReadsRegularRings) {
+  const Limb limb(stem_with_twigs(4, 8, 0));
+  EXPECT_TRUE(limb.shape.regular());
+  EXPECT_EQ(limb.shape.sides(), 8u);
+  EXPECT_FALSE(limb.shape.pointed());
+  EXPECT_NEAR(limb.shape.length_between(0, 3), 3, 1e-6);
+}
+
+TEST(LimbShape, ARingWithFewerSidesHasTheSamePerimeter) {
+  const Limb limb(stem_with_twigs(4, 12, 0));
+  const double full = perimeter(limb.shape.ring_vertices(1, 1, 12, 0));
+  EXPECT_NEAR(full, 12 * 2 * 0.5 * std::sin(std::numbers::pi / 12), 1e-5);
+  for (const std::uint32_t k : {8u, 6u, 5u, 4u, 3u})
+    EXPECT_NEAR(perimeter(limb.shape.ring_vertices(1, 1, k, 0)), full, 1e-5) << k;
+}
+
+TEST(LimbShape, ARibbonIsAsWideOnAverageAsTheTube) {
+  const Limb limb(stem_with_twigs(4, 64, 0));
+  const std::vector<SpectrumVertex> ends = limb.shape.ring_vertices(2, 1, 2, 0.3);
+  ASSERT_EQ(ends.size(), 2u);
+  // Seen from all round a strip of width w shows 2 w / pi.
+  EXPECT_NEAR(distance(to_double(ends[0].position), to_double(ends[1].position)) * 2 / std::numbers::pi, 1.0,
+              1e-3);
+}
+
+TEST(LimbShape, LeavingOutRingsOfAStraightStemCostsNothing) {
+  const Limb limb(stem_with_twigs(9, 6, 0));
+  EXPECT_NEAR(limb.shape.area_error(0, 8), 0, 1e-6);
+}
+
+TEST(LimbShape, LeavingOutABendCostsItsDeviation) {
+  Tube tube;
+  const auto a = tube.add_ring({0, 0, 0}, 0.1, 6, k_none), b = tube.add_ring({0.5, 1, 0}, 0.1, 6, a);
+  tube.add_ring({0, 2, 0}, 0.1, 6, b);
+  const Limb limb(tree_of(tube));
+  EXPECT_NEAR(limb.shape.largest_error(0, 2), 0.5, 1e-6);
+  EXPECT_GT(limb.shape.area_error(0, 2), 0.2);
+}
+
+TEST(LimbShape, CountsItsTriangles) {
+  const Limb limb(stem_with_twigs(5, 6, 0));
+  EXPECT_EQ(limb.shape.triangles(5, 6), 48u);
+  EXPECT_EQ(limb.shape.triangles(2, 3), 6u);
+  EXPECT_EQ(limb.shape.triangles(2, 2), 2u);
+}
+
+}  // namespace
+}  // namespace copse

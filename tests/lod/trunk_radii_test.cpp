@@ -1,0 +1,109 @@
+#include "lib/analysis/lod/trunk_radii.h"
+
+#include "lib/analysis/lod/limb_chains.h"
+#include "lib/analysis/lod/part_triangles.h"
+#include "lib/analysis/measure/raster.h"
+#include "lib/formats/level_mesh.h"
+#include "tests/lod/tube_tree.h"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+double area(const Mesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles)
+    sum += 0.5 * length(cross(mesh.positions[t[1]] - mesh.positions[t[0]],
+                              mesh.positions[t[2]] - mesh.positions[t[0]]));
+  return sum;
+}
+
+std::uint32_t step_for(const Spectrum& s, double ratio) {
+  std::uint32_t n = 0;
+  while (n < s.steps() && s.counts[n] > ratio * s.counts[0]) ++n;
+  return n;
+}
+
+double covered(const Mesh& mesh, const DoubleBox& box) {
+  double pixels = 0;
+  for (int view = 0; view < 6; ++view) {
+    const Raster r = rasterize(mesh.positions, mesh.triangles, frame_box(box, view * 0.5236, 256, 256));
+    for (const std::uint32_t t : r.triangle) pixels += t != k_none;
+  }
+  return pixels;
+}
+
+TEST(TrunkRadii, StartsWithTheTreesOwnTriangles) {
+  const Tree tree = stem_with_twigs(8, 8, 5);
+  const Spectrum s = trunk_by_radii(tree);
+  EXPECT_EQ(s.counts[0], tree.trunk.triangles.size());
+  Mesh mesh;
+  append_state(mesh, s, 0, "trunk");
+  const PartTriangles full = trunk_triangles(tree);
+  double expected = 0;
+  for (const auto& t : full.triangles) {
+    const Double3 a = to_double(full.vertices[t[0]].position), b = to_double(full.vertices[t[1]].position),
+                  c = to_double(full.vertices[t[2]].position);
+    expected += 0.5 * length(cross(b - a, c - a));
+  }
+  EXPECT_NEAR(area(mesh), expected, 1e-4 * expected);
+}
+
+TEST(TrunkRadii, GoesDownToNothingWithoutAFloor) {
+  const Spectrum s = trunk_by_radii(stem_with_twigs(8, 8, 20));
+  EXPECT_EQ(s.counts[s.steps()], 0u);
+  for (std::uint32_t n = 1; n <= s.steps(); ++n) {
+    EXPECT_LE(s.counts[n], s.counts[n - 1]);
+    EXPECT_GE(s.errors[n], s.errors[n - 1]);
+  }
+}
+
+TEST(TrunkRadii, KeepsTheCoverageAtATenth) {
+  const Spectrum s = trunk_by_radii(stem_with_twigs(30, 12, 10));
+  Mesh full, tenth;
+  append_state(full, s, 0, "trunk");
+  append_state(tenth, s, step_for(s, 0.1), "trunk");
+  EXPECT_LE(tenth.triangles.size(), full.triangles.size() / 10);
+  const DoubleBox box = bounds(full);
+  EXPECT_NEAR(covered(tenth, box) / covered(full, box), 1, 0.05);
+}
+
+TEST(TrunkRadii, ALimbOutlivesWhatGrowsFromIt) {
+  const Tree tree = stem_with_twigs(8, 8, 20);
+  const Spectrum s = trunk_by_radii(tree);
+  const std::vector<LimbChain> limbs = limb_chains(tree);
+  std::vector<std::uint32_t> limb_of(tree.radius_count(), k_none);
+  for (std::uint32_t l = 0; l < limbs.size(); ++l)
+    for (std::size_t i = 1; i < limbs[l].radii.size(); ++i) limb_of[limbs[l].radii[i]] = l;
+  std::vector<std::uint32_t> death(limbs.size(), 0);
+  for (const SpectrumElement& e : s.elements)
+    death[limb_of[e.radius]] = std::max(death[limb_of[e.radius]], e.death);
+  for (std::size_t l = 0; l < limbs.size(); ++l) {
+    if (limbs[l].parent == k_none) continue;
+    EXPECT_LE(death[l], death[limbs[l].parent]) << l;
+  }
+}
+
+TEST(TrunkRadii, WithoutAHierarchyThereIsFullDetailAlone) {
+  Tree tree;
+  tree.trunk.vertices = std::vector<Float3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  tree.trunk.triangles = std::vector<CornerTriangle>{{.vertex = {0, 1, 2}}};
+  const Spectrum s = trunk_by_radii(tree);
+  EXPECT_EQ(s.steps(), 0u);
+  EXPECT_EQ(s.counts[0], 1u);
+  EXPECT_EQ(trunk_by_radii(Tree{}).counts[0], 0u);
+}
+
+TEST(TrunkRadii, IsTheSameEveryTime) {
+  const Tree tree = stem_with_twigs(8, 8, 20);
+  const Spectrum a = trunk_by_radii(tree), b = trunk_by_radii(tree);
+  EXPECT_EQ(a.elements.to_vector(), b.elements.to_vector());
+  EXPECT_EQ(a.vertices.to_vector(), b.vertices.to_vector());
+  EXPECT_EQ(a.triangles.to_vector(), b.triangles.to_vector());
+}
+
+}  // namespace
+}  // namespace copse
