@@ -1,0 +1,256 @@
+#include "lib/analysis/volumes/enclose.h"
+
+#include "lib/analysis/volumes/certify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace copse {
+namespace {
+
+constexpr float k_infinity = std::numeric_limits<float>::infinity();
+constexpr double k_denormal = std::numeric_limits<float>::denorm_min();
+constexpr int k_growths = 40;  // pads double each time: more than enough to pass from one unit to anything
+
+using Points = std::span<const Double3>;
+
+// Points relative to something near, times a power of two that brings them to a size of about 1: squares
+// neither overflow nor underflow.
+class Near {
+ public:
+  Near(Points points, const Float3& origin) : origin_(to_double(origin)) {
+    double reach = 0;
+    for (const Double3& p : points) {
+      const Double3 d = p * 0.5 - origin_ * 0.5;
+      reach = std::max({reach, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+    }
+    if (reach > 0 && std::isfinite(reach))
+      scale_ = std::ldexp(1.0, -std::clamp(std::ilogb(reach), -1000, 1000));
+  }
+  Double3 in(const Double3& p) const { return (p * 0.5 - origin_ * 0.5) * (2 * scale_); }
+  double out(double size) const { return size / scale_; }
+  Double3 direction(const Double3& d) const { return d * scale_; }
+
+ private:
+  Double3 origin_;
+  double scale_ = 1;
+};
+
+// As float32 stores it; GCC 12 may drop the rounding of a mere pair of conversions (minimal_sphere.h).
+Float3 narrow(const Double3& p) {
+  volatile float x = static_cast<float>(p.x), y = static_cast<float>(p.y), z = static_cast<float>(p.z);
+  return {x, y, z};
+}
+
+float unit_of(float size) {
+  return std::nextafter(size, k_infinity) - size;
+}
+
+// Nothing at first, then what double arithmetic may have lost, then 1, 2, 4, ... units in the last place of a
+// size. So a set without thickness keeps its 0, and a thin one is not made thick for a rounding of doubles.
+double pad_of(int growth, double size) {
+  if (growth == 0) return 0;
+  return growth == 1 ? size * 0x1p-48 : std::ldexp(unit_of(static_cast<float>(size)), growth - 2);
+}
+
+double clamped_foot(const Double3& q, const Double3& d) {
+  const double dd = dot(d, d);
+  return dd > 0 ? std::clamp(dot(q, d) / dd, 0.0, 1.0) : 0;
+}
+
+// --- each type: the stored volume at the n-th growth
+// ---------------------------------------------------------
+
+FloatBox store(const DoubleBox&, Points points, int) {
+  DoubleBox box;
+  for (const Double3& p : points) box.grow(p);
+  return round_outward(box);
+}
+
+BoundingSphere<float> store(const BoundingSphere<double>& v, Points points, int growth) {
+  BoundingSphere<float> s{narrow(v.centre), 0};
+  const Near near(points, s.centre);
+  double squared = 0;
+  for (const Double3& p : points) {
+    const Double3 d = near.in(p);
+    squared = std::max(squared, dot(d, d));
+  }
+  const double radius = near.out(std::sqrt(squared));
+  s.radius = round_up(radius + pad_of(growth, radius));
+  return s;
+}
+
+OrientedBox<float> store(const OrientedBox<double>& v, Points points, int growth) {
+  OrientedBox<float> box;
+  for (int i = 0; i < 3; ++i) box.axes[i] = narrow(v.axes[i]);
+  // The middle of what the rounded axes span, from the fitted centre.
+  const Near about_fit(points, narrow(v.centre));
+  Double3 centre = to_double(narrow(v.centre));
+  for (int i = 0; i < 3; ++i) {
+    const Double3 axis = to_double(box.axes[i]);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Double3& p : points) {
+      const double x = dot(axis, about_fit.in(p));
+      low = std::min(low, x), high = std::max(high, x);
+    }
+    centre += axis * about_fit.out((low + high) / 2);
+  }
+  box.centre = narrow(centre);
+  const Near near(points, box.centre);
+  Double3 half, most;
+  for (const Double3& p : points) {
+    const Double3 d = near.in(p);
+    for (int i = 0; i < 3; ++i) half[i] = std::max(half[i], std::abs(dot(to_double(box.axes[i]), d)));
+  }
+  for (int i = 0; i < 3; ++i) most[i] = near.out(half[i]);
+  const double size = std::max({most.x, most.y, most.z});
+  for (int i = 0; i < 3; ++i) box.half_extents[i] = round_up(most[i] + pad_of(growth, size));
+  return box;
+}
+
+Capsule<float> store(const Capsule<double>& v, Points points, int growth) {
+  Capsule<float> c{narrow(v.a), narrow(v.b), 0};
+  const Near near(points, c.a);
+  const Double3 d = near.in(to_double(c.b));
+  double squared = 0;
+  for (const Double3& p : points) {
+    const Double3 q = near.in(p);
+    const Double3 rest = q - d * clamped_foot(q, d);
+    squared = std::max(squared, dot(rest, rest));
+  }
+  const double radius = near.out(std::sqrt(squared));
+  c.radius = round_up(radius + pad_of(growth, std::max(radius, near.out(length(d)))));
+  return c;
+}
+
+Lozenge<float> store(const Lozenge<double>& v, Points points, int growth) {
+  Lozenge<float> l{narrow(v.origin), narrow(v.edge0), narrow(v.edge1), 0};
+  const Near near(points, l.origin);
+  const Double3 e0 = near.direction(to_double(l.edge0)), e1 = near.direction(to_double(l.edge1));
+  double squared = 0;
+  for (const Double3& p : points) {
+    const Double3 q = near.in(p);
+    const Double3 rest = q - e0 * clamped_foot(q, e0) - e1 * clamped_foot(q, e1);
+    squared = std::max(squared, dot(rest, rest));
+  }
+  const double radius = near.out(std::sqrt(squared));
+  l.radius =
+      round_up(radius + pad_of(growth, std::max({radius, near.out(length(e0)), near.out(length(e1))})));
+  return l;
+}
+
+// Ends are moved outward along the axis, which turns it a little once they are rounded, so the radius comes
+// last.
+Cylinder<float> store(const Cylinder<double>& v, Points points, int growth) {
+  const Near frame(points, narrow(v.a));
+  const Double3 axis = normalized(v.b - v.a);
+  double low = std::numeric_limits<double>::infinity(), high = -low, size = 0;
+  for (const Double3& p : points) {
+    const double t = dot(axis, frame.in(p));
+    low = std::min(low, t), high = std::max(high, t), size = std::max(size, length(frame.in(p)));
+  }
+  const Double3 from = to_double(narrow(v.a));
+  // Units of the coordinates too: ends that round to the same point are no cylinder.
+  double pad = pad_of(growth, std::max(frame.out(size), length(from)));
+  if (growth > 1) pad = std::max(pad, std::ldexp(k_denormal, growth - 2));
+  Cylinder<float> c{narrow(from + axis * (frame.out(low) - pad)),
+                    narrow(from + axis * (frame.out(high) + pad)), 0};
+  const Near near(points, c.a);
+  const Double3 d = near.in(to_double(c.b));
+  const double dd = dot(d, d);
+  double squared = 0;
+  for (const Double3& p : points) {
+    const Double3 q = near.in(p);
+    const Double3 across = cross(q, d);
+    squared = std::max(squared, dot(across, across));
+  }
+  const double radius = dd > 0 ? near.out(std::sqrt(squared / dd)) : 0;
+  c.radius = round_up(radius + pad_of(std::min(growth, 3), std::max(radius, near.out(std::sqrt(dd)))));
+  return c;
+}
+
+// The factor by which semi-axes must grow so that every point is inside.
+double reach_of(const std::vector<Double3>& components, const Double3& semi) {
+  double most = 0;
+  for (const Double3& x : components) {
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double t = semi[i] > 0 ? x[i] / semi[i] : 0;
+      sum += t * t;
+    }
+    most = std::max(most, sum);
+  }
+  return std::sqrt(most);
+}
+
+Ellipsoid<float> store(const Ellipsoid<double>& v, Points points, int growth) {
+  Ellipsoid<float> e;
+  e.centre = narrow(v.centre);
+  for (int i = 0; i < 3; ++i) e.axes[i] = narrow(v.axes[i]);
+  const Near near(points, e.centre);
+  std::vector<Double3> components;
+  components.reserve(points.size());
+  Double3 widest;
+  for (const Double3& p : points) {
+    const Double3 d = near.in(p);
+    components.push_back(
+        {dot(to_double(e.axes[0]), d), dot(to_double(e.axes[1]), d), dot(to_double(e.axes[2]), d)});
+    for (int i = 0; i < 3; ++i) widest[i] = std::max(widest[i], std::abs(components.back()[i]));
+  }
+  // A semi-axis that vanishes, or has lost its meaning to rounding, is set to some multiple of what is left
+  // of the points along it; of a few multiples the one with the least volume.
+  const Double3 fitted = near.direction(v.semi_axes);
+  Double3 best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double multiple : {0.0, 1.0, 1.75, 4.0, 64.0}) {
+    Double3 semi;
+    bool holds = true;
+    for (int i = 0; i < 3; ++i) {
+      semi[i] = fitted[i] >= widest[i] ? fitted[i] : multiple == 0 ? fitted[i] : multiple * widest[i];
+      holds &= semi[i] > 0 || widest[i] == 0;
+    }
+    if (!holds) continue;
+    const double reach = reach_of(components, semi);
+    double product = 1;
+    for (int i = 0; i < 3; ++i) product *= semi[i] > 0 ? semi[i] * reach : 1;
+    if (product < least) least = product, best = semi * std::max(reach, 1e-300);
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double semi = near.out(best[i]);
+    // In proportion: units of the whole size would make a thin axis thick for nothing.
+    e.semi_axes[i] = semi == 0 ? 0 : round_up(semi * (1 + pad_of(growth, 1)));
+  }
+  return e;
+}
+
+Kdop<float> store(const Kdop<double>& v, Points points, int growth) {
+  Kdop<float> k;
+  for (const Double3& normal : v.normals) {
+    const Float3 n = narrow(normal);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Double3& p : points) {
+      const double x = dot(to_double(n), p);
+      low = std::min(low, x), high = std::max(high, x);
+    }
+    const double pad = pad_of(growth, std::max(std::abs(low), std::abs(high)));
+    k.normals.push_back(n);
+    k.min.push_back(round_down(low - pad));
+    k.max.push_back(round_up(high + pad));
+  }
+  return k;
+}
+
+}  // namespace
+
+std::optional<Enclosed> enclose(const Volume<double>& fitted, Points points) {
+  Enclosed best;
+  for (int growth = 0; growth < k_growths; ++growth) {
+    best.volume = std::visit([&](const auto& v) { return Volume<float>(store(v, points, growth)); }, fitted);
+    best.certified = certify(best.volume, points).holds();
+    if (best.certified) return best;
+  }
+  return std::nullopt;
+}
+
+}  // namespace copse
