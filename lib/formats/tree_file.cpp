@@ -4,6 +4,7 @@
 #include "lib/formats/little_endian.h"
 #include "lib/formats/materials.h"
 #include "lib/formats/tree_sections.h"
+#include "lib/formats/tree_volumes.h"
 
 #include <algorithm>
 #include <utility>
@@ -317,6 +318,7 @@ std::vector<std::string> TreeFile::verify() const {
   check_elements(*tree, impl_->head, findings);
   const auto lines = findings.lines();
   failures.insert(failures.end(), lines.begin(), lines.end());
+  if (const auto volumes = load_volumes(*this); !volumes) failures.push_back(volumes.error().what);
   return failures;
 }
 

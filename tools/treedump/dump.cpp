@@ -41,7 +41,11 @@ constexpr std::array k_sections{Name{"HEAD", "header"},
                                 Name{"LTEX", "leaf texture coordinates"},
                                 Name{"LGRP", "leaf groups"},
                                 Name{"LORD", "order of the leaves"},
-                                Name{"LGHI", "spheres over the leaf groups"}};
+                                Name{"LGHI", "spheres over the leaf groups"},
+                                Name{"VSET", "sets of bounding volumes"},
+                                Name{"VOLU", "bounding volumes"},
+                                Name{"VNUM", "numbers of the volumes"},
+                                Name{"VNOD", "hierarchy of volumes"}};
 
 void note(Dump& dump, const Error& error) {
   if (!dump.problem) dump.problem = error;
