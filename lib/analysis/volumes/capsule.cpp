@@ -1,0 +1,60 @@
+#include "lib/analysis/volumes/capsule.h"
+
+#include "lib/analysis/volumes/principal_frame.h"
+#include "lib/analysis/volumes/swept_search.h"
+
+#include <algorithm>
+
+namespace copse {
+
+double interior_volume(const Capsule<double>& c) {
+  return swept_volume({distance(c.a, c.b), 0, c.radius});
+}
+
+double distance_from_segment(const Capsule<double>& c, const Double3& p) {
+  const Double3 d = c.b - c.a, q = p - c.a;
+  const double square = dot(d, d);
+  const double s = square > 0 ? std::clamp(dot(q, d) / square, 0.0, 1.0) : 0;
+  return length(q - d * s);
+}
+
+Capsule<double> enclosing(Capsule<double> c, std::span<const Double3> points) {
+  c.radius = 0;
+  for (const Double3& p : points) c.radius = std::max(c.radius, distance_from_segment(c, p));
+  return c;
+}
+
+Capsule<double> capsule_on_line(std::span<const Double3> points, const Double3& on_line,
+                                const Double3& direction) {
+  const Double3 w = normalized(direction);
+  const auto height = [&](const Double3& p) { return dot(p - on_line, w); };
+  const auto squared_radius = [&](const Double3& p) {
+    const Double3 across = cross(p - on_line, w);
+    return dot(across, across);
+  };
+  double square = 0;
+  for (const Double3& p : points) square = std::max(square, squared_radius(p));
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Double3& p : points) {
+    const double h = height(p), half = std::sqrt(std::max(0.0, square - squared_radius(p)));
+    low = std::min(low, h + half), high = std::max(high, h - half);
+  }
+  if (high < low) low = high = (low + high) / 2;
+  return enclosing({on_line + w * low, on_line + w * high, 0}, points);
+}
+
+Capsule<double> least_squares_capsule(std::span<const Double3> points) {
+  if (points.empty()) return {};
+  const PrincipalFrame frame = principal_frame(points);
+  return capsule_on_line(points, frame.mean, frame.axes[0]);
+}
+
+Capsule<double> projected_circle_capsule(std::span<const Double3> points) {
+  if (points.empty()) return {};
+  const SweptFit line = search_around(Swept::line, points);
+  const SweptRectangle& s = line.rectangle;
+  const Double3 middle = out_of(line.frame, {(s.a0 + s.a1) / 2, s.b0, s.h});
+  return capsule_on_line(points, middle, line.frame[0]);
+}
+
+}  // namespace copse

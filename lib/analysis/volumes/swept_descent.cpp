@@ -1,0 +1,128 @@
+#include "lib/analysis/volumes/swept_descent.h"
+
+#include <algorithm>
+
+namespace copse {
+namespace {
+
+constexpr double k_room = 1.05;        // a start is this much larger than it must be
+constexpr std::size_t k_added = 6;     // points a round
+constexpr double k_sticks_out = 1e-9;  // of the radius: less is left to the final growth
+
+// The points that stick out most, none near another in the list of offsets: the worst of each octant of the
+// offset, worst first.
+void add_worst(std::span<const Double3> points, const SweptFit& fit, std::vector<std::uint32_t>& working,
+               double limit) {
+  std::array<std::pair<double, std::uint32_t>, 16> worst;
+  worst.fill({limit * limit, 0});
+  std::array<bool, 16> found{};
+  const SweptRectangle& s = fit.rectangle;
+  const double mid_a = (s.a0 + s.a1) / 2, mid_b = (s.b0 + s.b1) / 2;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const Double3 q = into(fit.frame, points[i]), e = offset_from(s, q);
+    const double square = dot(e, e);
+    if (square <= limit * limit) continue;
+    const int key = (q.x > mid_a) | (q.y > mid_b) << 1 | (e.z > 0) << 2 | (e.x != 0) << 3;
+    if (square > worst[key].first) worst[key] = {square, i}, found[key] = true;
+  }
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (int k = 0; k < 16; ++k) {
+    if (found[k]) order.push_back(worst[k]);
+  }
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first > b.first : a.second < b.second;
+  });
+  for (std::size_t k = 0; k < order.size() && k < k_added; ++k) working.push_back(order[k].second);
+}
+
+std::vector<Double3> chosen(std::span<const Double3> points, const std::vector<std::uint32_t>& indices) {
+  std::vector<Double3> out;
+  for (const std::uint32_t i : indices) out.push_back(points[i]);
+  return out;
+}
+
+void span_line(std::span<const Double3> points, SweptFit& fit) {
+  DoubleBox box;
+  for (const Double3& p : points) box.grow(into(fit.frame, p));
+  fit.rectangle.a0 = box.min.x, fit.rectangle.a1 = box.max.x;
+}
+
+}  // namespace
+
+SweptRectangle roomy_rectangle(Swept kind, std::span<const Double3> points, const Frame3& frame) {
+  DoubleBox box;
+  for (const Double3& p : points) box.grow(into(frame, p));
+  SweptFit fit{frame, {}};
+  SweptRectangle& s = fit.rectangle;
+  const Double3 middle = box.centre();
+  s = {box.min.x, box.max.x, box.min.y, box.max.y, middle.z, 0};
+  if (kind != Swept::lozenge) s.b0 = s.b1 = middle.y;
+  s.r = reach_of(points, fit);
+  const double size = std::max({box.extent().x, box.extent().y, box.extent().z});
+  s.r = std::max(s.r * k_room, size * 1e-14);
+  // Lengths of 0 would be on the boundary.
+  const double least = s.r * 0.05;
+  if (s.a1 - s.a0 < least) s.a0 = middle.x - least / 2, s.a1 = middle.x + least / 2;
+  if (kind == Swept::lozenge && s.b1 - s.b0 < least) s.b0 = middle.y - least / 2, s.b1 = middle.y + least / 2;
+  return s;
+}
+
+std::vector<std::uint32_t> extreme_points(std::span<const Double3> points, const Frame3& frame) {
+  constexpr int k_directions = 7;
+  std::array<double, 2 * k_directions> most;
+  most.fill(-std::numeric_limits<double>::infinity());
+  std::array<std::uint32_t, 2 * k_directions> at{};
+  DoubleBox box;
+  for (const Double3& p : points) box.grow(into(frame, p));
+  // Corners are sought in the box scaled to a cube.
+  const Double3 x = box.extent();
+  const Double3 scale{x.x > 0 ? 1 / x.x : 1, x.y > 0 ? 1 / x.y : 1, x.z > 0 ? 1 / x.z : 1};
+  const Double3 middle = box.centre();
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    Double3 q = into(frame, points[i]) - middle;
+    q = {q.x * scale.x, q.y * scale.y, q.z * scale.z};
+    const std::array<double, k_directions> along{
+        q.x, q.y, q.z, q.x + q.y + q.z, q.x + q.y - q.z, q.x - q.y + q.z, q.x - q.y - q.z};
+    for (int k = 0; k < k_directions; ++k) {
+      if (along[k] > most[2 * k]) most[2 * k] = along[k], at[2 * k] = i;
+      if (-along[k] > most[2 * k + 1]) most[2 * k + 1] = -along[k], at[2 * k + 1] = i;
+    }
+  }
+  std::vector<std::uint32_t> out(at.begin(), at.end());
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+double reach_of(std::span<const Double3> points, const SweptFit& fit) {
+  double square = 0;
+  for (const Double3& p : points) {
+    const Double3 e = offset_from(fit.rectangle, into(fit.frame, p));
+    square = std::max(square, dot(e, e));
+  }
+  return std::sqrt(square);
+}
+
+SweptFit descend_around(Swept kind, std::span<const Double3> points, const Frame3& start,
+                        const DescentOptions& options) {
+  SweptFit fit{orthonormal(start), {}};
+  std::vector<std::uint32_t> working = extreme_points(points, fit.frame);
+  fit.rectangle = roomy_rectangle(kind, points, fit.frame);
+  BarrierGaps gaps{1, options.gap};
+  for (int round = 0;; ++round) {
+    descend(kind, chosen(points, working), fit, gaps);
+    if (kind == Swept::line) span_line(points, fit);
+    const double reach = reach_of(points, fit), r = fit.rectangle.r;
+    const bool last = reach <= r * (1 + k_sticks_out) || round + 1 >= options.rounds;
+    if (last) {
+      fit.rectangle.r = reach;
+      return fit;
+    }
+    add_worst(points, fit, working, r);
+    const double excess = reach / r - 1;
+    fit.rectangle.r = reach + std::max(0.02 * r, 0.5 * (reach - r));
+    gaps.first = std::clamp(excess, 1e-3, 0.3);
+  }
+}
+
+}  // namespace copse

@@ -1,0 +1,74 @@
+#include "lib/analysis/volumes/swept_search.h"
+
+#include "lib/analysis/volumes/principal_frame.h"
+
+#include <algorithm>
+
+namespace copse {
+namespace {
+
+constexpr double k_rough_gap = 0.05;
+constexpr int k_rough_rounds = 2;
+
+Frame3 about(const Frame3& base, const Double3& direction) {
+  const Double3 u = normalized(direction);
+  const Double3 side = std::abs(u.x) < 0.7 ? Double3{1, 0, 0} : Double3{0, 1, 0};
+  const Frame3 local = orthonormal({u, side, {}});
+  return {out_of(base, local[0]), out_of(base, local[1]), out_of(base, local[2])};
+}
+
+// The axes, the face diagonals and the body diagonals.
+std::vector<Frame3> directions(const Frame3& base) {
+  std::vector<Frame3> out;
+  for (int x = 1; x >= -1; --x) {
+    for (int y = 1; y >= -1; --y) {
+      for (int z = 1; z >= -1; --z) {
+        const bool half = x > 0 || (x == 0 && (y > 0 || (y == 0 && z > 0)));
+        if (half) out.push_back(about(base, {double(x), double(y), double(z)}));
+      }
+    }
+  }
+  return out;
+}
+
+// The frames modulo the eight rotations of a rectangle: each axis of the base across, turned to the corners
+// of a cube in the space of rotations, and not turned.
+std::vector<Frame3> frames(const Frame3& base) {
+  constexpr double k_turn = 0.2071;  // half of tan(pi / 8), the cube's half side
+  std::vector<Frame3> out;
+  for (int k = 0; k < 3; ++k) {
+    const Frame3 across{base[(k + 1) % 3], base[(k + 2) % 3], base[k]};
+    out.push_back(across);
+    for (int corner = 0; corner < 8; ++corner) {
+      const auto sign = [&](int bit) { return corner >> bit & 1 ? -k_turn : k_turn; };
+      out.push_back(turned(across, {sign(0), sign(1), sign(2)}));
+    }
+  }
+  return out;
+}
+
+double cost(Swept kind, const SweptFit& fit) {
+  return kind == Swept::line ? fit.rectangle.r : fit.volume();
+}
+
+}  // namespace
+
+SweptFit search_around(Swept kind, std::span<const Double3> points, const SearchOptions& options) {
+  const Frame3 base = principal_frame(points).axes;
+  std::vector<std::pair<double, Frame3>> scouts;
+  for (const Frame3& start : kind == Swept::lozenge ? frames(base) : directions(base)) {
+    const SweptFit fit = descend_around(kind, points, start, {k_rough_gap, k_rough_rounds});
+    scouts.emplace_back(cost(kind, fit), fit.frame);
+  }
+  std::stable_sort(scouts.begin(), scouts.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  SweptFit best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scouts.size() && i < static_cast<std::size_t>(options.finalists); ++i) {
+    const SweptFit fit = descend_around(kind, points, scouts[i].second);
+    if (cost(kind, fit) < least) least = cost(kind, fit), best = fit;
+  }
+  return best;
+}
+
+}  // namespace copse

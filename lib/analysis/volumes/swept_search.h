@@ -1,0 +1,19 @@
+// swept_search: the least capsule, lozenge or line around points that descents from many frames find.
+//
+// Every frame of a fixed set, laid out from the principal frame, is tried with a rough descent over a few
+// points; the best of them go on to the end over all points. Deterministic. What is found is the global
+// optimum nearly always (docs/volumes.md has figures); swept_bound.h proves how far from it it can be.
+#pragma once
+
+#include "lib/analysis/volumes/swept_descent.h"
+
+namespace copse {
+
+struct SearchOptions {
+  int finalists = 4;
+};
+
+// `points`: hull vertices in canonical order, at least one, |p| about 1 or less.
+SweptFit search_around(Swept kind, std::span<const Double3> points, const SearchOptions& options = {});
+
+}  // namespace copse
