@@ -108,7 +108,7 @@ void SegmentTree::near(const Double3& point, double reach, double least_radius, 
     const double d = distance_to(node.box, point);
     if (d > node.radius + reach) continue;
     const double widest = std::max(node.radius, least_radius);
-    if (found.size() == count && d > key(found.back()).first * widest) continue;
+    if (found.size() == count && d >= key(found.back()).first * widest) continue;
     if (node.count == 0) {
       todo.push_back(node.first);
       todo.push_back(id + 1);

@@ -31,16 +31,25 @@ std::vector<EdgeUse> contact_edges(std::span<const Triangle> triangles,
       if (user[v] != piece[t]) user[v] = k_several;
     }
   }
-  std::vector<EdgeUse> edges;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
-      if (user[a] == k_several && user[b] == k_several) {
-        edges.push_back({std::min(a, b), std::max(a, b), piece[t]});
+  // Sorted into buckets by the lower end, then each small bucket: linear, whatever the number of edges.
+  std::vector<std::uint32_t> first(points + 1, 0);
+  const auto each = [&](const auto& visit) {
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const std::uint32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
+        if (user[a] == k_several && user[b] == k_several)
+          visit(EdgeUse{std::min(a, b), std::max(a, b), piece[t]});
       }
     }
+  };
+  each([&](const EdgeUse& e) { ++first[e.low + 1]; });
+  for (std::uint32_t p = 0; p < points; ++p) first[p + 1] += first[p];
+  std::vector<EdgeUse> edges(first[points]);
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  each([&](const EdgeUse& e) { edges[next[e.low]++] = e; });
+  for (std::uint32_t p = 0; p < points; ++p) {
+    std::sort(edges.begin() + first[p], edges.begin() + first[p + 1]);
   }
-  std::ranges::sort(edges);
   return edges;
 }
 

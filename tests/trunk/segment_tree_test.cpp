@@ -1,0 +1,95 @@
+#include "lib/analysis/trunk/segment_tree.h"
+
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+std::vector<Segment> random_segments(std::size_t count, std::uint32_t limbs, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto draw = [&](double high) { return high * random() / 4294967296.0; };
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Double3 a{draw(10), draw(10), draw(10)};
+    segments.push_back({a, a + Double3{draw(2) - 1, draw(2) - 1, draw(2) - 1}, draw(0.3), draw(0.3),
+                        static_cast<std::uint32_t>(random() % limbs)});
+  }
+  return segments;
+}
+
+TEST(SegmentTree, MeasuresADistanceAndTheRadiusThere) {
+  const std::vector<Segment> s{{{0, 0, 0}, {0, 4, 0}, 1, 0.5, 0}};
+  const Nearness beside = nearness(s, 0, {3, 1, 0});
+  EXPECT_DOUBLE_EQ(beside.t, 0.25);
+  EXPECT_DOUBLE_EQ(beside.distance, 3);
+  EXPECT_DOUBLE_EQ(beside.radius, 0.875);
+  EXPECT_DOUBLE_EQ(nearness(s, 0, {0, 6, 0}).distance, 2);
+  EXPECT_DOUBLE_EQ(nearness(std::vector<Segment>{{{1, 1, 1}, {1, 1, 1}, 1, 1, 0}}, 0, {1, 1, 3}).distance, 2);
+}
+
+TEST(SegmentTree, FindsTheNearestOfEachLimbAsALookAtAllWould) {
+  const SegmentTree tree(random_segments(500, 40, 3));
+  std::vector<Nearness> found;
+  std::mt19937 random(7);
+  for (int query = 0; query < 200; ++query) {
+    const Double3 p{random() % 1000 * 0.01, random() % 1000 * 0.01, random() % 1000 * 0.01};
+    const std::uint32_t except = random() % 40;
+    tree.near(p, 0.5, 0.1, except, 5, found);
+    std::vector<Nearness> all;
+    const auto key = [](const Nearness& n) {
+      return std::pair(n.distance / std::max(n.radius, 0.1), n.segment);
+    };
+    for (std::uint32_t limb = 0; limb < 40; ++limb) {
+      Nearness best;
+      bool any = false;
+      for (std::uint32_t s = 0; s < tree.segments().size(); ++s) {
+        if (tree.segments()[s].limb != limb || limb == except) continue;
+        const Nearness n = nearness(tree.segments(), s, p);
+        if (n.gap() <= 0.5 && (!any || key(n) < key(best))) best = n, any = true;
+      }
+      if (any) all.push_back(best);
+    }
+    std::ranges::sort(all, {}, key);
+    all.resize(std::min<std::size_t>(all.size(), 5));
+    ASSERT_EQ(found.size(), all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(found[i].segment, all[i].segment);
+  }
+}
+
+TEST(SegmentTree, FindsTheNearestSurfaceWithinReach) {
+  const SegmentTree tree(random_segments(300, 300, 9));
+  std::mt19937 random(1);
+  for (int query = 0; query < 200; ++query) {
+    const Double3 p{random() % 1000 * 0.01, random() % 1000 * 0.01, random() % 1000 * 0.01};
+    const std::uint32_t except = random() % 300;
+    Nearness best, found;
+    bool any = false;
+    for (std::uint32_t s = 0; s < tree.segments().size(); ++s) {
+      const Nearness n = nearness(tree.segments(), s, p);
+      if (tree.segments()[s].limb == except || n.gap() > 0.8) continue;
+      if (!any || n.gap() < best.gap()) best = n, any = true;
+    }
+    ASSERT_EQ(tree.nearest(p, 0.8, except, found), any);
+    if (any) {
+      EXPECT_EQ(found.segment, best.segment);
+    }
+  }
+}
+
+TEST(SegmentTree, OfNothingFindsNothingAndManyInOnePlaceAreNoTrap) {
+  std::vector<Nearness> found{{}};
+  const SegmentTree none({});
+  none.near({0, 0, 0}, 1, 1, 0xffffffffu, 4, found);
+  EXPECT_TRUE(found.empty());
+  std::vector<Segment> heap;
+  for (std::uint32_t i = 0; i < 50000; ++i) heap.push_back({{0, 0, 0}, {0, 1, 0}, 1, 1, i});
+  const SegmentTree tree(std::move(heap));
+  for (int query = 0; query < 1000; ++query) tree.near({0, 0.5, 0}, 1, 1, 0xffffffffu, 16, found);
+  ASSERT_EQ(found.size(), 16u);
+}
+
+}  // namespace
+}  // namespace copse
