@@ -3,6 +3,8 @@
 #include "lib/analysis/trunk/tolerances.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace copse {
 
@@ -30,17 +32,92 @@ double RingReader::slenderness() const {
   return count == 0 || diameters <= 0 ? 0 : axis / (diameters / static_cast<double>(count));
 }
 
-// Leaves the most slender of the readings that succeed in front_; the first of equals.
-bool RingReader::read_best(std::span<const RingStarts::Ring> starts, RingSizes sizes) {
-  const RingStarts::Ring* best = nullptr;
-  double best_slenderness = -1;
+// Mean cosine between the rungs of a strip and its axis there: 0 for square rungs. A strip whose quads are
+// all cut the same way can also be read along its diagonals.
+double RingReader::obliqueness() const {
+  const RingTree& rings = front_.rings();
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::uint32_t r = 0; r < rings.size(); ++r) {
+    if (rings.ring(r).size() != 2) continue;
+    // Strips do not fork: rings follow one another.
+    const std::uint32_t before = r == 0 ? r : r - 1, after = std::min(r + 1, rings.size() - 1);
+    const Double3 axis = measure_ring(mesh_.positions, rings.ring(after)).centre -
+                         measure_ring(mesh_.positions, rings.ring(before)).centre;
+    const Double3 rung = mesh_.positions[rings.ring(r)[1]] - mesh_.positions[rings.ring(r)[0]];
+    sum += std::abs(dot(normalized(axis, {}), normalized(rung, {})));
+    ++count;
+  }
+  return count == 0 ? 1 : sum / static_cast<double>(count);
+}
+
+// Whether one end alone is sunk below y = 0, as the foot of a blade of grass is.
+bool RingReader::has_foot() const {
+  const RingTree& rings = front_.rings();
+  const auto sunk = [&](std::uint32_t r) {
+    return std::ranges::all_of(rings.ring(r), [&](std::uint32_t v) { return mesh_.positions[v].y < 0; });
+  };
+  return sunk(0) != sunk(rings.size() - 1);
+}
+
+// How many ends of the reading are neither a flat lid nor the middle of a flat cap. The ends of a closed tube
+// are flat, but for tips; where a surface is read across its sides they are corners.
+std::size_t RingReader::pointed_ends() const {
+  const RingTree& rings = front_.rings();
+  std::vector<std::uint32_t> next(rings.size(), k_none);  // the one ring that an end leads to
+  std::vector<std::uint32_t> children(rings.size(), 0);
+  for (std::uint32_t r = 1; r < rings.size(); ++r) {
+    next[r] = rings.parent[r];
+    if (++children[rings.parent[r]] == 1 && rings.parent[r] == 0) next[0] = r;
+  }
+  std::size_t pointed = 0;
+  for (std::uint32_t r = 0; r < rings.size(); ++r) {
+    if (children[r] != (r == 0 ? 1 : 0)) continue;
+    const auto ring = rings.ring(r);
+    pointed += ring.size() == 1 ? !closes_flat(ring[0], rings.ring(next[r])) : !is_flat(ring);
+  }
+  return pointed;
+}
+
+bool RingReader::closes_flat(std::uint32_t point, std::span<const std::uint32_t> ring) const {
+  const RingMeasure m = measure_ring(mesh_.positions, ring);
+  return distance(mesh_.positions[point], m.centre) <= k_lid_height * m.diameter / 2;
+}
+
+bool RingReader::is_flat(std::span<const std::uint32_t> ring) const {
+  const RingMeasure m = measure_ring(mesh_.positions, ring);
+  return std::ranges::all_of(ring, [&](std::uint32_t v) {
+    return std::abs(dot(mesh_.positions[v] - m.centre, m.normal)) <= k_lid_height * m.diameter / 2;
+  });
+}
+
+// Adds the readings from these starts that succeed.
+void RingReader::try_starts(std::span<const RingStarts::Ring> starts, RingSizes sizes,
+                            std::vector<Reading>& readings) {
   for (const RingStarts::Ring& start : starts) {
     if (budget_ == 0) break;
     if (!attempt(start, start.size() > 2, sizes) || front_.rings().size() < 2) continue;
-    const double s = slenderness();
-    if (s > best_slenderness) best = &start, best_slenderness = s;
+    const bool is_strip = sizes == RingSizes::any;
+    Reading& r = readings.emplace_back();
+    r.start = start;
+    if (is_strip) r.oblique = obliqueness();
+    if (!is_strip) r.pointed = pointed_ends();
+    r.rank = {is_strip && has_foot(), slenderness() / static_cast<double>(1 + r.pointed)};
   }
-  return best != nullptr && front_.read(*best, best->size() > 2, sizes);
+}
+
+// Leaves the best of the readings in front_; the first of equals. Best is, of strips, the squarest; of those
+// that are about as square, one that stands with a foot in the ground; then the most slender, where every end
+// that is not flat must be made up for by length.
+bool RingReader::read_best(std::span<const Reading> readings, RingSizes sizes) {
+  if (readings.empty()) return false;
+  const double squarest = std::ranges::min(readings, {}, &Reading::oblique).oblique;
+  const Reading* best = nullptr;
+  for (const Reading& reading : readings) {
+    if (reading.oblique > squarest + k_about_square) continue;
+    if (best == nullptr || reading.rank > best->rank) best = &reading;
+  }
+  return front_.read(best->start, best->start.size() > 2, sizes);
 }
 
 bool RingReader::read_open(std::uint32_t boundary_vertex, std::span<const std::uint32_t> vertices) {
@@ -48,7 +125,9 @@ bool RingReader::read_open(std::uint32_t boundary_vertex, std::span<const std::u
   const bool read = !first.empty() && attempt(first, true, RingSizes::any);
   // One ring that is all lid: a disc without inner vertices.
   if (read && front_.rings().size() == 1 && front_.triangles().size() + 2 == first.size()) {
-    return read_best(starts_.rungs(vertices), RingSizes::any);
+    std::vector<Reading> readings;
+    try_starts(starts_.rungs(vertices), RingSizes::any, readings);
+    return read_best(readings, RingSizes::any);
   }
   if (read) return front_.rings().size() > 1 && slenderness() > k_flat_slenderness;
   for (const RingStarts::Ring& loop : starts_.loops(vertices)) {
@@ -67,8 +146,15 @@ bool RingReader::read_closed(std::span<const std::uint32_t> triangles,
   for (const std::uint32_t v : vertices) {
     if (starts_.may_be_apex(v)) starts.push_back({v});
   }
-  for (RingStarts::Ring& rim : starts_.lids(triangles)) starts.push_back(std::move(rim));
-  return read_best(starts, RingSizes::constant);
+  // Where a tube is sheared its lid meets one side of it smoothly: look closer until lids come off.
+  std::vector<Reading> readings;
+  for (const double smooth : k_lid_smooth_cosines) {
+    for (RingStarts::Ring& rim : starts_.lids(triangles, smooth)) starts.push_back(std::move(rim));
+    try_starts(starts, RingSizes::constant, readings);
+    if (std::ranges::any_of(readings, [](const Reading& r) { return r.pointed == 0; })) break;
+    starts.clear();
+  }
+  return read_best(readings, RingSizes::constant);
 }
 
 // Cap centres, and rings inset in the plane of a cap, belong to the lid of the ring that they close.
@@ -115,8 +201,8 @@ void RingReader::append(Limbs& limbs) const {
     if (lid_of[r] != k_none) continue;
     id[r] = limbs.rings();
     const std::uint32_t parent = rings.parent[r] == k_none ? k_none : id[rings.parent[r]];
-    limbs.append(measures[r].centre, measures[r].diameter, parent,
-                 rings.ring(r).size() == 1 ? RadiusSource::point : RadiusSource::ring, rings.ring(r));
+    limbs.append(measures[r], parent, rings.ring(r).size() == 1 ? RadiusSource::point : RadiusSource::ring,
+                 rings.ring(r));
   }
   ++limbs.size;
   for (const std::uint32_t t : front_.triangles()) {

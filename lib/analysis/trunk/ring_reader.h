@@ -7,6 +7,8 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace copse {
 
@@ -24,11 +26,25 @@ class RingReader {
   bool read(std::span<const std::uint32_t> triangles, std::span<const std::uint32_t> vertices, Limbs& limbs);
 
  private:
+  // A start from which the whole surface can be read.
+  struct Reading {
+    RingStarts::Ring start;
+    double oblique = 0;
+    std::size_t pointed = 0;
+    std::pair<bool, double> rank;
+  };
+
   bool read_open(std::uint32_t boundary_vertex, std::span<const std::uint32_t> vertices);
-  bool read_best(std::span<const RingStarts::Ring> starts, RingSizes sizes);
+  void try_starts(std::span<const RingStarts::Ring> starts, RingSizes sizes, std::vector<Reading>& readings);
+  bool read_best(std::span<const Reading> readings, RingSizes sizes);
   bool read_closed(std::span<const std::uint32_t> triangles, std::span<const std::uint32_t> vertices);
   bool attempt(std::span<const std::uint32_t> start, bool closed, RingSizes sizes);
   double slenderness() const;
+  double obliqueness() const;
+  bool has_foot() const;
+  std::size_t pointed_ends() const;
+  bool closes_flat(std::uint32_t point, std::span<const std::uint32_t> ring) const;
+  bool is_flat(std::span<const std::uint32_t> ring) const;
   std::vector<std::uint32_t> lid_ring_of(std::span<const RingMeasure> measures) const;
   void append(Limbs& limbs) const;
 

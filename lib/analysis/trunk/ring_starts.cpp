@@ -119,7 +119,7 @@ RingStarts::Ring RingStarts::rim(std::span<const std::array<std::uint32_t, 2>> e
   return ring.size() == edges.size() ? ring : Ring{};
 }
 
-std::vector<RingStarts::Ring> RingStarts::lids(std::span<const std::uint32_t> triangles) {
+std::vector<RingStarts::Ring> RingStarts::lids(std::span<const std::uint32_t> triangles, double smooth) {
   for (std::uint32_t i = 0; i < triangles.size(); ++i) local_[triangles[i]] = i;
   // Edges between exactly two triangles, found from their lower end; smooth ones join their triangles.
   UnionFind patches(triangles.size());
@@ -141,7 +141,7 @@ std::vector<RingStarts::Ring> RingStarts::lids(std::span<const std::uint32_t> tr
   }
   for (const auto& e : edges) {
     // Winding may be inconsistent: a fold by more than a right angle counts as its supplement.
-    if (std::abs(dot(normal(triangles[e[2]]), normal(triangles[e[3]]))) > k_lid_smooth_cosine) {
+    if (std::abs(dot(normal(triangles[e[2]]), normal(triangles[e[3]]))) > smooth) {
       patches.unite(e[2], e[3]);
     }
   }

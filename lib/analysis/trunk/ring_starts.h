@@ -33,7 +33,8 @@ class RingStarts {
   bool may_be_apex(std::uint32_t vertex) const;
 
   // The rims of all smooth patches that are discs without inner vertices: lids, and the flat sides of boxes.
-  std::vector<Ring> lids(std::span<const std::uint32_t> triangles);
+  // A patch ends where the cosine between the normals of neighbouring triangles is not above `smooth`.
+  std::vector<Ring> lids(std::span<const std::uint32_t> triangles, double smooth);
 
   // The rungs and points that a strip (a disc without inner vertices) may start with.
   std::vector<Ring> rungs(std::span<const std::uint32_t> vertices) const;

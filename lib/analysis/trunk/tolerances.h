@@ -25,11 +25,11 @@ inline constexpr double k_weld_noise_of_diagonal = 1.0 / (1 << 23);
 
 // Triangles, as multiples of the surface's own, that attempts to read it may touch before it counts as no
 // tree of rings. One true start is enough; a box has three readings, each found from both ends.
-inline constexpr std::size_t k_ring_attempts = 16;
-// Cosine of the angle between the normals of neighbouring triangles below which an edge is a crease. 30
-// degrees: a lid meets the side of a tube at about 90; it need not separate the sides of a tube from each
-// other.
-inline constexpr double k_lid_smooth_cosine = 0.8660254037844387;
+inline constexpr std::size_t k_ring_attempts = 64;
+// Cosines of the angles between the normals of neighbouring triangles above which an edge is smooth and no
+// rim of a lid: 30, 10, 3 and 1 degrees. A lid meets the side of a tube at about 90, of a sheared tube at
+// less.
+inline constexpr double k_lid_smooth_cosines[] = {0.8660254, 0.9848078, 0.9986295, 0.9998477};
 // Axis length over mean diameter below which concentric rings are a flat sheet and no tube.
 inline constexpr double k_flat_slenderness = 1e-3;
 // Mean cosine between rungs and axis by which a strip may be read less squarely, if that makes it longer.
@@ -49,6 +49,9 @@ inline constexpr double k_like_thickness = 1.1;
 // Depth of the lowest point below y = 0, as a share of the trunk's height, up to which y = 0 is the ground.
 // Roots are sunk by a few per cent; a model that is centred on the origin is at 1/2.
 inline constexpr double k_ground_depth = 0.2;
+// Share of the trunk's height by which bases that stand on one level may differ: what is put on a floor is
+// put on it exactly. On a trunk that is much longer than thick, k_ground_level is less.
+inline constexpr double k_same_level = 1e-4;
 // Radii of the base by which it may stand above the lowest base of all to stand on the same ground.
 inline constexpr double k_ground_level = 0.25;
 // Radii of another stem from its axis, up to which a stem that stands on the ground grows from that stem and
@@ -69,15 +72,19 @@ inline constexpr double k_thicker_child = 1.25;
 inline constexpr std::size_t k_habit_limbs = 5;
 inline constexpr double k_habit_unknown = 0.25;
 inline constexpr double k_habit_least = 1e-4;
+// The least spread of ln(child's radius / parent's radius) that is believed: children differ by level and by
+// chance.
+inline constexpr double k_habit_least_ratio = 0.1;
 // Share of the trunk's size by which rounding in the file may move a ring's centre or a point of an axis.
 inline constexpr double k_rounding = 1e-6;
 // Radius of a child over its parent's at which the parent's thickness stops to matter: it is not the parent.
 inline constexpr double k_much_thicker = 16;
-// Costs, in spreads: the most that an unusual offset can cost; a parent thinner by a factor e than it may be;
-// a parent at its own buried base; a gap, or an end that is not the base by its taper; a root where something
-// would hold it. So a root is better than a parent that is thinner than half the child, whatever else speaks
-// for it.
+// Costs, in spreads: the most that an unusual offset, and that an unusual ratio of radii can cost; a parent
+// thinner by a factor e than it may be; a parent at its own buried base; a gap, or an end that is not the
+// base by its taper; a root where something would hold it. So a root is better than a parent that is thinner
+// than half the child, whatever else speaks for it.
 inline constexpr double k_cost_offset = 20;
+inline constexpr double k_cost_ratio = 2;
 inline constexpr double k_cost_too_thin = 60;
 inline constexpr double k_cost_buried = 2;
 inline constexpr double k_cost_doubt = 9;
