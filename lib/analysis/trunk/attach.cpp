@@ -15,6 +15,8 @@ namespace {
 struct Candidate {
   std::uint32_t limb = 0, ring = 0;
   double offset = 0;    // of the base from the axis, in radii
+  double edge = 0;      // of the base edge that is nearest to the axis, likewise; < 0 beyond the axis
+  double ratio = 0;     // ln of the child's radius over the parent's
   double too_thin = 0;  // ln of how much thinner the parent is than a parent may be; 0 if it is not
   double buried = 0;    // 1 at the centre of the parent's own buried base, 0 a radius away from it
   double noise = 0;     // of the offset: what rounding makes of a coordinate, in radii
@@ -23,9 +25,11 @@ struct Candidate {
   double cost = 0;
 };
 
-// How the limbs of this file are set on their parents.
+// How the limbs of this file are set on their parents: with their centre or with their edge at this offset.
 struct Habit {
+  double Candidate::*measure = &Candidate::offset;
   double offset = 0, spread = 1;
+  double ratio = 0, ratio_spread = 0;  // ln of a child's radius over its parent's; spread 0: unknown
 };
 
 class Attacher {
@@ -42,7 +46,8 @@ class Attacher {
     measure_limbs();
     find_candidates();
     mark_buried();
-    rate(habit());
+    const Habit usual = habit();
+    for (Candidate& c : candidates_) c.cost = cost(c, usual);
     choose();
     std::vector<Attachment> attachments(bases_.size());
     for (std::uint32_t l = 0; l < bases_.size(); ++l) {
@@ -59,10 +64,12 @@ class Attacher {
   void find_candidates(std::uint32_t limb);
   bool find_turned(std::uint32_t limb);
   void mark_buried();
+  Habit habit(double Candidate::*measure) const;
   Habit habit() const;
-  void rate(const Habit& habit);
+  static double cost(const Candidate& candidate, const Habit& habit);
   void choose();
-  Candidate candidate(const Nearness& near, double radius) const;
+  double lean(const Nearness& near, std::uint32_t base) const;
+  Candidate candidate(const Nearness& near, std::uint32_t base, double radius) const;
   bool stands_on_ground(std::uint32_t limb, std::span<const Candidate> candidates) const;
 
   const Limbs& limbs_;
@@ -122,7 +129,16 @@ void Attacher::measure_limbs() {
   }
 }
 
-Candidate Attacher::candidate(const Nearness& near, double radius) const {
+// How far a base ring reaches towards the axis of a possible parent, as a share of its radius: the sine of
+// the angle between its normal and the way to the axis.
+double Attacher::lean(const Nearness& near, std::uint32_t base) const {
+  const Segment& s = segments_.tree.segments()[near.segment];
+  const Double3 out = normalized(limbs_.centre[base] - (s.a + (s.b - s.a) * near.t), {0, 0, 0});
+  const double along = dot(out, limbs_.normal[base]);
+  return std::sqrt(std::max(0.0, 1 - along * along));
+}
+
+Candidate Attacher::candidate(const Nearness& near, std::uint32_t base, double radius) const {
   const auto& rings = segments_.rings[near.segment];
   std::uint32_t ring = rings[near.t < 0.5 ? 0 : 1];
   // Nothing grows from a point if there is a ring to grow from.
@@ -132,8 +148,10 @@ Candidate Attacher::candidate(const Nearness& near, double radius) const {
   c.limb = limbs_.limb[c.ring];
   const double wide = std::max(near.radius, radius / 2);
   c.offset = wide > 0 ? near.distance / wide : 0;
-  c.too_thin =
-      std::max(0.0, std::log(radius / (k_thicker_child * std::max(near.radius, radius / k_much_thicker))));
+  c.ratio = std::log(radius / std::max(near.radius, radius / k_much_thicker));
+  if (!std::isfinite(c.ratio)) c.ratio = 0;  // points
+  c.too_thin = std::max(0.0, c.ratio - std::log(k_thicker_child));
+  c.edge = wide > 0 ? (near.distance - radius * lean(near, base)) / wide : 0;
   c.noise = wide > 0 ? k_rounding * size_ / wide : 0;
   c.gap = near.gap();
   return c;
@@ -148,6 +166,7 @@ bool Attacher::stands_on_ground(std::uint32_t limb, std::span<const Candidate> c
     const auto droops = [&](const Candidate& c) { return !ground_.is_below(natural_bases_[c.limb]); };
     return rise > 0 && !ground_.is_below(farthest_[limb]) && std::ranges::none_of(candidates, droops);
   }
+  if (ground_.is_floor(base)) return rise > 0;
   const auto holds = [](const Candidate& c) { return c.offset <= k_ground_offset; };
   return rise > reach_[limb] / 2 && limbs_.centre[base].y - lowest_ <= k_ground_level * radius_[limb] &&
          std::ranges::none_of(candidates, holds);
@@ -164,15 +183,16 @@ void Attacher::find_candidates() {
 void Attacher::find_candidates(std::uint32_t limb) {
   const std::size_t begin = candidates_.size();
   const double radius = radius_[limb];
-  const Double3& at = limbs_.centre[bases_[limb]];
+  const std::uint32_t base = bases_[limb];
+  const Double3& at = limbs_.centre[base];
   segments_.tree.near(at, k_contact_reach * radius, radius / 2, limb, k_candidates, found_);
-  for (const Nearness& near : found_) candidates_.push_back(candidate(near, radius));
+  for (const Nearness& near : found_) candidates_.push_back(candidate(near, base, radius));
   const bool on_ground = stands_on_ground(limb, std::span(candidates_).subspan(begin));
   if (on_ground) candidates_.resize(begin);
   if (on_ground || !found_.empty() || find_turned(limb)) return;
   Nearness near;
   if (segments_.tree.nearest(at, k_float_gap * reach_[limb], limb, near)) {
-    candidates_.push_back(candidate(near, radius));
+    candidates_.push_back(candidate(near, base, radius));
     candidates_.back().doubt = k_cost_doubt;
   }
 }
@@ -187,7 +207,7 @@ bool Attacher::find_turned(std::uint32_t limb) {
   segments_.tree.near(limbs_.centre[end], k_contact_reach * radius, radius / 2, limb, k_candidates, found_);
   for (const Nearness& near : found_) {
     if (mean_radius_[limb] > k_thicker_child * near.radius) continue;
-    candidates_.push_back(candidate(near, radius));
+    candidates_.push_back(candidate(near, end, radius));
     candidates_.back().doubt = k_cost_doubt;
   }
   if (candidates_.size() == begin) return false;
@@ -207,19 +227,20 @@ void Attacher::mark_buried() {
   }
 }
 
-// The narrowest range of offsets that holds as many possible parents as half the limbs. Each limb's true
-// parent lies where the file sets branches; wrong ones lie anywhere.
-Habit Attacher::habit() const {
+// The narrowest range that holds as many possible parents as half the limbs. Each limb's true parent lies
+// where the file sets branches; wrong ones lie anywhere.
+Habit Attacher::habit(double Candidate::*measure) const {
   std::vector<double> offsets;
   std::size_t held = 0;
   for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
     const std::size_t before = offsets.size();
     for (std::uint32_t c = first_[limb]; c < first_[limb + 1]; ++c) {
-      if (candidates_[c].doubt == 0 && candidates_[c].too_thin == 0) offsets.push_back(candidates_[c].offset);
+      if (candidates_[c].doubt == 0 && candidates_[c].too_thin == 0)
+        offsets.push_back(candidates_[c].*measure);
     }
     held += offsets.size() > before;
   }
-  if (held < k_habit_limbs) return {0, k_habit_unknown};
+  if (held < k_habit_limbs) return {.offset = 0, .spread = k_habit_unknown};
   std::ranges::sort(offsets);
   const std::size_t half = held / 2;
   std::size_t begin = 0;
@@ -227,15 +248,38 @@ Habit Attacher::habit() const {
     if (offsets[i + half] - offsets[i] < offsets[begin + half] - offsets[begin]) begin = i;
   }
   const double low = offsets[begin], high = offsets[begin + half];
-  return {(low + high) / 2, std::max(k_habit_least, (high - low) / 2)};
+  return {
+      .measure = measure, .offset = (low + high) / 2, .spread = std::max(k_habit_least, (high - low) / 2)};
 }
 
-void Attacher::rate(const Habit& habit) {
-  for (Candidate& c : candidates_) {
-    const double unusual = std::abs(c.offset - habit.offset) / std::max(habit.spread, c.noise);
-    c.cost = k_cost_offset * unusual / (k_cost_offset + unusual) + k_cost_too_thin * c.too_thin +
-             k_cost_buried * c.buried + c.doubt;
+Habit Attacher::habit() const {
+  const Habit centre = habit(&Candidate::offset), edge = habit(&Candidate::edge);
+  Habit best = edge.spread < centre.spread ? edge : centre;
+  // How thick children are, going by the possible parent of each that fits best so far.
+  std::vector<double> ratios;
+  for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
+    const auto candidates = std::span(candidates_).subspan(first_[limb], first_[limb + 1] - first_[limb]);
+    if (candidates.empty()) continue;
+    ratios.push_back(
+        std::ranges::min(candidates, {}, [&](const Candidate& c) { return cost(c, best); }).ratio);
   }
+  if (ratios.size() < k_habit_limbs) return best;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::ranges::nth_element(ratios, middle);
+  best.ratio = *middle;
+  for (double& r : ratios) r = std::abs(r - best.ratio);
+  std::ranges::nth_element(ratios, middle);
+  best.ratio_spread = std::max(k_habit_least_ratio, *middle);
+  return best;
+}
+
+double Attacher::cost(const Candidate& c, const Habit& habit) {
+  // Both level off: how far out an outlier lies tells little.
+  const auto levelled = [](double unusual, double most) { return most * unusual / (most + unusual); };
+  const double offset = std::abs(c.*habit.measure - habit.offset) / std::max(habit.spread, c.noise);
+  const double ratio = habit.ratio_spread > 0 ? std::abs(c.ratio - habit.ratio) / habit.ratio_spread : 0;
+  return levelled(offset, k_cost_offset) + levelled(ratio, k_cost_ratio) + k_cost_too_thin * c.too_thin +
+         k_cost_buried * c.buried + c.doubt;
 }
 
 // Where nothing else decides, the lowest and thickest limb is the root.

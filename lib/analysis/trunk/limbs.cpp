@@ -4,13 +4,14 @@
 
 namespace copse {
 
-void Limbs::append(const Double3& ring_centre, double ring_diameter, std::uint32_t ring_parent,
-                   RadiusSource ring_source, std::span<const std::uint32_t> ring_vertices) {
+void Limbs::append(const RingMeasure& measure, std::uint32_t ring_parent, RadiusSource ring_source,
+                   std::span<const std::uint32_t> ring_vertices) {
   limb.push_back(size);
   merged_into.push_back(k_none);
   band.push_back(ring_parent == k_none ? k_none : rings());
-  centre.push_back(ring_centre);
-  diameter.push_back(ring_diameter);
+  centre.push_back(measure.centre);
+  diameter.push_back(measure.diameter);
+  normal.push_back(measure.normal);
   parent.push_back(ring_parent);
   source.push_back(ring_source);
   vertices.insert(vertices.end(), ring_vertices.begin(), ring_vertices.end());
@@ -24,10 +25,17 @@ RingMeasure measure_ring(std::span<const Double3> positions, std::span<const std
   const Double3& origin = positions[ring[0]];
   Double3 mean;
   for (const std::uint32_t v : ring) mean += (positions[v] - origin) * share;
-  RingMeasure measure{origin + mean, 0};
+  RingMeasure measure{origin + mean, 0, {}};
   for (const std::uint32_t v : ring) {
     measure.diameter += 2 * share * length(positions[v] - origin - mean);
   }
+  if (ring.size() < 3 || !(measure.diameter > 0)) return measure;
+  // In radii: products of lengths neither overflow nor vanish.
+  const auto arm = [&](std::uint32_t v) { return (positions[v] - origin - mean) / measure.diameter; };
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    measure.normal += cross(arm(ring[i]), arm(ring[(i + 1) % ring.size()]));
+  }
+  measure.normal = normalized(measure.normal, {0, 0, 0});
   return measure;
 }
 

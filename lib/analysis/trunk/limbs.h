@@ -10,12 +10,22 @@
 
 namespace copse {
 
+// Mean of the points, twice their mean distance from it, and the unit normal of the polygon that they are in
+// this order (0 for fewer than three, or where they span nothing).
+struct RingMeasure {
+  Double3 centre;
+  double diameter = 0;
+  Double3 normal;
+};
+RingMeasure measure_ring(std::span<const Double3> positions, std::span<const std::uint32_t> ring);
+
 // A limb is a tree of rings that surface joins: band r is the surface
 // between ring r and its parent as they were read. Rerooting changes which ring lies at the far end of a
 // band.
 struct Limbs {
   std::vector<Double3> centre;
   std::vector<double> diameter;
+  std::vector<Double3> normal;        // of the ring's plane, unit; 0 where the ring has none
   std::vector<std::uint32_t> parent;  // within the limb; k_none for the limb's root
   std::vector<std::uint32_t> band;    // that joins the ring to its parent; k_none for the limb's root
   std::vector<RadiusSource> source;
@@ -45,16 +55,9 @@ struct Limbs {
   std::uint32_t size = 0;  // limbs
 
   // Appends a ring to limb number `size`; its band has its own number. Finish with ++size.
-  void append(const Double3& ring_centre, double ring_diameter, std::uint32_t ring_parent,
-              RadiusSource ring_source, std::span<const std::uint32_t> ring_vertices);
+  void append(const RingMeasure& measure, std::uint32_t ring_parent, RadiusSource ring_source,
+              std::span<const std::uint32_t> ring_vertices);
 };
-
-// Mean of the points, and twice their mean distance from it.
-struct RingMeasure {
-  Double3 centre;
-  double diameter = 0;
-};
-RingMeasure measure_ring(std::span<const Double3> positions, std::span<const std::uint32_t> ring);
 
 // Makes `ring` (alive) the root of its limb by turning round the parents between it and the present root.
 // Rings keep their numbers, so parents need no longer come before children. Linear in the length of the way.

@@ -21,8 +21,8 @@ void append_welded(const Hierarchy& part, std::span<const std::uint32_t> triangl
   for (std::uint32_t r = 0; r < part.radii.size(); ++r) {
     const RadiusNode& node = part.radii[r];
     const std::uint32_t first = part.first_vertex[r], end = part.first_vertex[r + 1];
-    limbs.append(node.centre, node.diameter, node.parent == k_none ? k_none : base + node.parent, node.source,
-                 std::span(part.ring_vertices).subspan(first, end - first));
+    limbs.append({node.centre, node.diameter, {}}, node.parent == k_none ? k_none : base + node.parent,
+                 node.source, std::span(part.ring_vertices).subspan(first, end - first));
   }
   ++limbs.size;
   for (std::size_t i = 0; i < triangles.size(); ++i) {

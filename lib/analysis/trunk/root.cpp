@@ -43,14 +43,34 @@ class Contact {
 
 }  // namespace
 
-Ground::Ground(const Limbs& limbs, std::span<const Double3> positions) : below_(limbs.rings(), 0) {
+Ground::Ground(const Limbs& limbs, std::span<const Double3> positions)
+    : below_(limbs.rings(), 0), floor_(limbs.rings(), 0) {
   DoubleBox box;
   for (const std::uint32_t v : limbs.vertices) box.grow(positions[v]);
-  if (box.empty() || !(-box.min.y <= k_ground_depth * (box.max.y - box.min.y))) return;
-  for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
-    below_[r] = !limbs.ring(r).empty() &&
-                std::ranges::all_of(limbs.ring(r), [&](std::uint32_t v) { return positions[v].y < 0; });
+  const double height = box.extent().y;
+  bool any_below = false;
+  if (!box.empty() && -box.min.y <= k_ground_depth * height) {
+    for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
+      below_[r] = !limbs.ring(r).empty() &&
+                  std::ranges::all_of(limbs.ring(r), [&](std::uint32_t v) { return positions[v].y < 0; });
+      any_below |= below_[r] != 0;
+    }
   }
+  if (!any_below) find_floor(limbs, height);
+}
+
+void Ground::find_floor(const Limbs& limbs, double height) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Double3& c : limbs.centre) lowest = std::min(lowest, c.y);
+  std::vector<std::uint32_t> standing;
+  for (const std::uint32_t e : end_rings(limbs)) {
+    const double level = std::min(k_same_level * height, k_ground_level * limbs.diameter[e] / 2);
+    if (limbs.centre[e].y - lowest <= level) standing.push_back(e);
+  }
+  const bool several = std::ranges::any_of(
+      standing, [&](std::uint32_t e) { return limbs.limb[e] != limbs.limb[standing.front()]; });
+  if (!several) return;
+  for (const std::uint32_t e : standing) floor_[e] = 1;
 }
 
 std::vector<std::uint32_t> choose_bases(const Limbs& limbs, const LimbSegments& segments,
@@ -67,7 +87,7 @@ std::vector<std::uint32_t> choose_bases(const Limbs& limbs, const LimbSegments& 
     const std::uint32_t limb = limbs.limb[e];
     if (!possible[e]) continue;
     Rank rank;
-    if (choices[limb] > 1) rank = {!ground.is_below(e), contact(e), limbs.centre[e].y};
+    if (choices[limb] > 1) rank = {!ground.is_below(e) && !ground.is_floor(e), contact(e), limbs.centre[e].y};
     if (base[limb] == k_none || rank < best[limb]) best[limb] = rank, base[limb] = e;
   }
   return base;

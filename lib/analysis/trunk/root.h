@@ -17,14 +17,20 @@ class Ground {
  public:
   Ground(const Limbs& limbs, std::span<const Double3> positions);
   bool is_below(std::uint32_t ring) const { return below_[ring] != 0; }
+  // Where nothing is below the ground: whether the ring lies on the lowest level of all, and so do ends of
+  // other limbs. What several limbs stand on is a floor.
+  bool is_floor(std::uint32_t ring) const { return floor_[ring] != 0; }
 
  private:
+  void find_floor(const Limbs& limbs, double height);
+
   std::vector<std::uint8_t> below_;  // one a ring; all 0 where the rule means nothing
+  std::vector<std::uint8_t> floor_;
 };
 
 // The ring that each limb begins with; k_none for limb numbers that joining has emptied. A limb begins at the
-// end that it tapers from (taper.h). Where that leaves a choice: below the ground, then where it lies in or
-// against another limb, then the lower one, then the one that the file has first.
+// end that it tapers from (taper.h). Where that leaves a choice: below the ground or on the floor, then where
+// it lies in or against another limb, then the lower one, then the one that the file has first.
 std::vector<std::uint32_t> choose_bases(const Limbs& limbs, const LimbSegments& segments,
                                         const Ground& ground);
 

@@ -1,0 +1,65 @@
+#include "lib/analysis/trunk/join.h"
+
+#include "lib/analysis/trunk/taper.h"
+#include "tests/trunk/limb_maker.h"
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+TEST(Join, MergesRingsInOnePlaceAndMakesTheirLimbsOne) {
+  Limbs limbs;
+  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 0.9, 0.8});
+  add_limb(limbs, {0, 2, 0}, {0, 1, 0}, {0.8, 0.7, 0.6, 0.5});
+  LimbSegments segments(limbs);
+  join(limbs, segments);
+  EXPECT_EQ(limbs.limb[0], limbs.limb[6]);
+  EXPECT_EQ(end_rings(limbs).size(), 2u);
+  int merged = 0;
+  for (const std::uint32_t m : limbs.merged_into) merged += m != k_none;
+  EXPECT_EQ(merged, 1);
+}
+
+TEST(Join, LeavesSiblingsApartThatBeginInOnePlace) {
+  Limbs limbs;
+  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 0.5, 0.2});
+  add_limb(limbs, {0, 0, 0}, {1, 0, 0}, {1, 0.5, 0.2});
+  LimbSegments segments(limbs);
+  join(limbs, segments);
+  EXPECT_NE(limbs.limb[0], limbs.limb[3]);
+}
+
+TEST(Join, LeavesRingsApartThatDifferInPlaceOrThickness) {
+  Limbs limbs;
+  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 1});
+  add_limb(limbs, {0, 2.01, 0}, {0, 1, 0}, {1, 1, 1});
+  add_limb(limbs, {0, 0, 0}, {0, -1, 0}, {0.9, 0.9});
+  LimbSegments segments(limbs);
+  join(limbs, segments);
+  EXPECT_NE(limbs.limb[0], limbs.limb[3]);
+  EXPECT_NE(limbs.limb[0], limbs.limb[6]);
+}
+
+TEST(Join, DoesNotCloseALoopOfTwoTubesInOnePlace) {
+  Limbs limbs;
+  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 1});
+  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 1});
+  LimbSegments segments(limbs);
+  join(limbs, segments);
+  EXPECT_EQ(limbs.limb[0], limbs.limb[3]);
+  int merged = 0;
+  for (const std::uint32_t m : limbs.merged_into) merged += m != k_none;
+  EXPECT_EQ(merged, 1);
+}
+
+TEST(Join, ChainsAHundredThousandTubesWithoutQuadraticCost) {
+  Limbs limbs;
+  for (int i = 0; i < 100000; ++i) add_limb(limbs, {0, 2.0 * i, 0}, {0, 1, 0}, {1, 1, 1});
+  LimbSegments segments(limbs);
+  join(limbs, segments);
+  EXPECT_EQ(end_rings(limbs).size(), 2u);
+}
+
+}  // namespace
+}  // namespace copse
