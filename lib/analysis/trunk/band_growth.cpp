@@ -48,7 +48,8 @@ void BandGrowth::push(std::uint32_t read_triangle, std::uint32_t a, std::uint32_
 // touch it; false when the front is longer than the limit. Triangles across edges are partners, so walking is
 // a permutation of the border's edges and always comes back.
 bool BandGrowth::walk(const Edge& start) {
-  step_.ring.clear(), step_.next.clear(), step_.triangles.clear(), step_.far.clear();
+  step_.ring.clear(), step_.next.clear(), step_.triangles.clear();
+  step_.near.clear(), step_.far.clear();
   step_.corner = false;
   ++walks_;
   Edge e = start;
@@ -56,6 +57,7 @@ bool BandGrowth::walk(const Edge& start) {
   do {
     seen_[3 * e.triangle + static_cast<std::size_t>(edge_between(triangles_[e.triangle], e.a, e.b))] = walks_;
     step_.ring.push_back(e.a);
+    step_.near.push_back(e);
     std::uint32_t t = e.triangle, x = third_corner(triangles_[t], e.a, e.b);
     std::uint32_t n = beyond(t, e.b, x);
     step_.corner |= !unread(n);
@@ -106,6 +108,22 @@ void BandGrowth::commit() {
   for (const Edge& e : step_.far) push(e.triangle, e.a, e.b, limit_after(step_.next.size()));
 }
 
+// Whether the walked front is a border of the surface, or no longer than the longest ring that has led to it.
+// Where limbs share vertices, what is left of their rings is no longer than they are; where a front runs
+// round a hole that a limb sits in, it is.
+bool BandGrowth::is_expected() const {
+  std::size_t longest = 0, borders = 0;
+  for (const Edge& e : step_.near) {
+    const std::uint32_t behind =
+        across_[e.triangle][static_cast<std::size_t>(edge_between(triangles_[e.triangle], e.a, e.b))];
+    borders += behind == k_none;
+    if (behind >= bands_.band_of.size()) continue;
+    const std::uint32_t band = bands_.band_of[behind];
+    longest = std::max({longest, bands_.ring(2 * band).size(), bands_.ring(2 * band + 1).size()});
+  }
+  return borders == step_.ring.size() || step_.ring.size() <= longest;
+}
+
 void BandGrowth::read_regular() {
   while (!queue_.empty()) {
     const Edge e = queue_.front();
@@ -114,11 +132,11 @@ void BandGrowth::read_regular() {
     const auto edge = static_cast<std::size_t>(edge_between(triangles_[e.triangle], e.a, e.b));
     if (seen_[3 * e.triangle + edge] > committed_at_) continue;  // nothing has changed since
     if (!walk(e) || !is_strip()) continue;
-    if (step_.next.size() == step_.ring.size() || step_.next.size() == 1) {
+    const double k = static_cast<double>(step_.ring.size()), l = static_cast<double>(step_.next.size());
+    if ((k == l || l == 1) && is_expected()) {
       commit();
     } else if (is_gentle()) {
-      const double k = static_cast<double>(step_.ring.size()), l = static_cast<double>(step_.next.size());
-      parked_.push({std::abs(std::log(k / l)), serial_++, e});
+      parked_.push({l == 1 ? 0 : std::abs(std::log(k / l)), serial_++, e});
     }
   }
 }
@@ -229,11 +247,19 @@ void BandGrowth::close_fans() {
   for (std::uint32_t v = 0; v < first.size(); ++v) {
     if (!unread(first[v]) || !collect_fan(v, first[v], fan)) continue;
     std::size_t bordered = 0;
+    std::uint32_t band = k_none;
+    bool one_band = true;
     for (std::size_t i = 0; i < fan.link.size(); ++i) {
       const std::uint32_t n = beyond(fan.triangles[i], fan.link[i], fan.link[(i + 1) % fan.link.size()]);
-      bordered += n != k_none && !unread(n);
+      if (n >= bands_.band_of.size() || bands_.band_of[n] == k_none) continue;
+      one_band &= band == k_none || band == bands_.band_of[n];
+      band = bands_.band_of[n];
+      ++bordered;
     }
-    if (2 * bordered >= fan.link.size()) read_fan(v, fan);
+    if (!one_band || 2 * bordered < fan.link.size()) continue;
+    // Of two points at a fork each has half of the ring below; the corner of a box has less.
+    const std::size_t ring = std::max(bands_.ring(2 * band).size(), bands_.ring(2 * band + 1).size());
+    if (2 * bordered >= ring) read_fan(v, fan);
   }
 }
 

@@ -29,13 +29,14 @@ class BandGrowth {
   // k_point_angle, and blunter ones behind which two more rings of the same size follow).
   void start_at_borders();
   void start_at_points();
-  // Reads fans round a vertex of which half or more is bordered by what is read: blunt points, and caps.
+  // Reads fans round a vertex of which half or more is bordered by one band: blunt points, and caps.
   void close_fans();
   // Fronts: the rings of bands first .. count() - 1, which another method has found.
   void start_at_bands(std::uint32_t first);
 
   // Reads every band that keeps the number of vertices from ring to ring; then, if `change` says so, also
-  // those that change it on a cone of at most 45 degrees, those that change it least first.
+  // those that change it, or start from a front that is longer than the rings that led to it, on a cone of at
+  // most 45 degrees: those that change it least first.
   void run(bool change);
 
   // Closes the holes that are left where limbs were cut into others, small ones first, with triangles that
@@ -52,8 +53,9 @@ class BandGrowth {
   // The front through an edge, and what touches it.
   struct Step {
     std::vector<std::uint32_t> ring, next, triangles;
-    std::vector<Edge> far;  // the edges of `next` with their triangles, far[i] from next[i] on
-    bool corner = false;    // a triangle lies in a corner of the front: no strip
+    std::vector<Edge> near;  // the edges of `ring` with their triangles
+    std::vector<Edge> far;   // the edges of `next` with their triangles, far[i] from next[i] on
+    bool corner = false;     // a triangle lies in a corner of the front: no strip
   };
   struct Parked {
     double change = 0;
@@ -76,6 +78,7 @@ class BandGrowth {
   bool walk(const Edge& start);
   bool is_strip();
   bool is_simple(std::span<const std::uint32_t> ring);
+  bool is_expected() const;
   bool is_gentle() const;
   void commit();
   void read_regular();

@@ -21,6 +21,9 @@ struct Bands {
   std::span<const std::uint32_t> ring(std::uint32_t r) const {
     return std::span(vertices).subspan(first_vertex[r], first_vertex[r + 1] - first_vertex[r]);
   }
+  std::span<const std::uint32_t> triangles_of(std::uint32_t b) const {
+    return std::span(triangles).subspan(first_triangle[b], first_triangle[b + 1] - first_triangle[b]);
+  }
   // Adds a band and claims its triangles; those beyond band_of (stand-ins for no real triangle) are not kept.
   void add(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
            std::span<const std::uint32_t> of);

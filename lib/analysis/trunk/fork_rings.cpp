@@ -26,12 +26,35 @@ Bands read_bands(const Surface& surface, bool in_order) {
     BandGrowth growth(surface, bands);
     growth.start_at_bands(0);
     growth.run(false);
-    growth.fill_collars();
     growth.close_fans();
+    growth.run(false);
+    growth.fill_collars();
     growth.start_at_borders();
     growth.run(true);
   }
   return bands;
+}
+
+// A limb's point has the limb behind it, or at a fork the limb below and the other one's point. A fan with
+// less than half of its border on other bands is the corner of something else.
+bool is_corner(const Surface& surface, const Bands& bands, std::uint32_t band) {
+  if (bands.ring(2 * band + 1).size() > 1) return false;
+  std::size_t bordered = 0;
+  for (const std::uint32_t t : bands.triangles_of(band)) {
+    for (const std::uint32_t n : surface.across[t]) {
+      bordered += n != k_none && bands.band_of[n] != k_none && bands.band_of[n] != band;
+    }
+  }
+  return 2 * bordered < bands.ring(2 * band).size();
+}
+
+Bands without_corners(const Surface& surface, const Bands& all) {
+  Bands kept;
+  kept.band_of.assign(surface.triangles.size(), k_none);
+  for (std::uint32_t b = 0; b < all.count(); ++b) {
+    if (!is_corner(surface, all, b)) kept.add(all.ring(2 * b), all.ring(2 * b + 1), all.triangles_of(b));
+  }
+  return kept;
 }
 
 }  // namespace
@@ -43,7 +66,7 @@ Bands read_bands(const Surface& surface) {
     Bands by_shape = read_bands(surface, false);
     if (by_shape.triangles.size() > bands.triangles.size()) bands = std::move(by_shape);
   }
-  return bands;
+  return without_corners(surface, bands);
 }
 
 RingReading read_fork_rings(const Surface& surface) {

@@ -8,8 +8,8 @@ namespace copse {
 // --- band_growth
 
 // Radians: a vertex whose triangles' angles sum to less is the pointed end of a limb. 2 pi is flat; the
-// corner of a cube has 3/2 pi; this is a cone whose side is 39 degrees off its axis.
-inline constexpr double k_point_angle = 1.25 * 3.14159265358979323846;
+// corner of a cube has 3/2 pi; this is a cone whose side is 46 degrees off its axis.
+inline constexpr double k_point_angle = 1.45 * 3.14159265358979323846;
 
 // Vertices: holes wider than this are not closed where a limb was cut into another one. Closing costs the
 // square.
@@ -92,6 +92,12 @@ inline constexpr int k_section_rounds = 2;
 inline constexpr double k_end_section = 0.9;
 // Cosine: a limb whose last stretch bends less than 45 degrees is taken to end straight on.
 inline constexpr double k_straight_on = 0.7;
+// Rough radii: a last stretch that is shorter runs from the middle of the limb to any corner of its end, and
+// does not tell where the limb goes, unless it goes back.
+inline constexpr double k_end_stretch = 2;
+// Rough radii from the axis within which the surface at a closed end is the end, and not a limb that turns
+// away.
+inline constexpr double k_end_width = 2;
 // A section that is wider than both its neighbours by this cuts a fork.
 inline constexpr double k_bulge = 1.2;
 // Radii: how far a sample may be off the line between those that stay.
@@ -121,8 +127,8 @@ inline constexpr std::size_t k_flow_triangles_at_least = 2000;
 // Share of the triangles that lie between rings from which on the rings are taken without trying anything
 // else.
 inline constexpr double k_rings_suffice = 0.9;
-// Share of a surface skeleton's cost (see Fit) that the rings may cost at most to be taken where less of the surface
-// lies between rings: then some are rings by chance.
+// Share of a surface skeleton's cost (see Fit) that the rings may cost at most to be taken where less of the
+// surface lies between rings: then some are rings by chance.
 inline constexpr double k_rings_may_cost = 0.9;
 // Cost (see Fit) above which levels are doubted, and how much less another skeleton must cost to be taken
 // instead.
