@@ -1,4 +1,5 @@
 #include "lib/analysis/trunk/components.h"
+#include "lib/analysis/trunk/creation_order_cgal.h"
 #include "lib/analysis/trunk/flow_skeleton.h"
 #include "lib/analysis/trunk/geodesic.h"
 #include "lib/analysis/trunk/welded_tolerances.h"
@@ -159,6 +160,25 @@ void spread_nodes(const Surface& s, const Lists& triangles_of, CurveSkeleton& k)
   }
 }
 
+// Leaves out what no vertex of the surface leads to: what a filled hole has added.
+void drop_stray_points(CurveSkeleton& k) {
+  UnionFind sets(k.points.size());
+  for (const auto& [a, b] : k.edges) sets.unite(a, b);
+  std::vector<std::uint8_t> used(k.points.size(), 0);
+  for (const std::uint32_t n : k.node_of) used[sets.find(n)] = 1;
+  std::vector<std::uint32_t> number(k.points.size(), k_none);
+  std::vector<Double3> points;
+  for (std::uint32_t n = 0; n < number.size(); ++n) {
+    if (!used[sets.find(n)]) continue;
+    number[n] = static_cast<std::uint32_t>(points.size());
+    points.push_back(k.points[n]);
+  }
+  std::erase_if(k.edges, [&](const auto& e) { return number[e.first] == k_none; });
+  for (auto& [a, b] : k.edges) a = number[a], b = number[b];
+  for (std::uint32_t& n : k.node_of) n = number[n];
+  k.points = std::move(points);
+}
+
 // Joins the skeletons of pieces where an edge of the surface joins their vertices, and lists the triangles.
 void connect(const Surface& s, CurveSkeleton& k) {
   UnionFind sets(k.points.size());
@@ -217,6 +237,7 @@ CurveSkeleton flow_skeleton(const Surface& surface) {
   if (surface.triangles.empty()) return k;
   k.node_of.assign(surface.positions.size(), k_none);
   const Frame frame = frame_of(surface);
+  const CreationOrderBlock block;
   try {
     for (ClosedMesh& mesh : separate(orient(surface, frame))) {
       if (!close(mesh)) continue;
@@ -230,6 +251,7 @@ CurveSkeleton flow_skeleton(const Surface& surface) {
   }
   if (std::ranges::count(k.node_of, k_none) == std::ssize(k.node_of)) return {};
   spread_nodes(surface, triangles_of_vertices(surface), k);
+  drop_stray_points(k);
   std::uint32_t lowest = 0;
   for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
     if (surface.positions[v].y < surface.positions[lowest].y) lowest = v;

@@ -124,7 +124,12 @@ bool LimbSampler::measure(const Limb& limb, LimbSample& sample, const Double3& n
 void LimbSampler::recentre(const Limb& limb, const LimbProfile& profile, std::vector<LimbSample>& samples) {
   std::vector<Double3> normals(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const std::size_t last = i > 0 ? i - 1 : i, next = i + 1 < samples.size() ? i + 1 : i;
+    // The skeleton's own ends lie anywhere on the surface's: beside one the limb's inner side alone tells its
+    // way.
+    const bool by_base = i == 1 && limb.parent == k_none && samples.size() > 3;
+    const bool by_tip = i + 2 == samples.size() && samples.size() > 3;
+    const std::size_t last = i > 0 && !by_base ? i - 1 : i,
+                      next = i + 1 < samples.size() && !by_tip ? i + 1 : i;
     normals[i] = normalized(samples[next].circle.centre - samples[last].circle.centre);
   }
   // Where the surface ends, a plane at right angles to the limb misses some of it: finish_end() sees to
@@ -164,11 +169,14 @@ void LimbSampler::finish_end(const Limb& limb, const LimbProfile& profile, std::
                              bool tip) {
   LimbSample& end = tip ? samples.back() : samples.front();
   const LimbSample& inner = tip ? samples[samples.size() - 2] : samples[1];
+  const double thickness = profile.thickness[end.node];
   Double3 out = normalized(end.circle.centre - inner.circle.centre);
   if (samples.size() > 3) {  // straight on, unless the limb bends away: the last slices are torn
     const LimbSample& before = tip ? samples[samples.size() - 3] : samples[2];
     const Double3 on = normalized(inner.circle.centre - before.circle.centre);
-    if (before.measured && inner.measured && dot(on, out) > k_straight_on) out = on;
+    const bool is_short = distance(end.circle.centre, inner.circle.centre) < k_end_stretch * thickness;
+    const double bend = dot(on, out);
+    if (before.measured && inner.measured && (bend > k_straight_on || (is_short && bend > 0))) out = on;
   }
   if ((end.measured = end_at_border(limb, profile, out, end, tip))) return;
   double farthest = 0;
@@ -177,11 +185,12 @@ void LimbSampler::finish_end(const Limb& limb, const LimbProfile& profile, std::
     const std::size_t at = tip ? n - 1 - i : i;
     if (std::abs(profile.way[at] - end.way) > profile.thickness[at]) break;
     for (const std::uint32_t v : vertices_of_[limb.nodes[at]]) {
-      farthest = std::max(farthest, dot(s_.positions[v] - inner.circle.centre, out));
+      const Double3 from = s_.positions[v] - inner.circle.centre;
+      const double along = dot(from, out);
+      if (length(from - out * along) <= k_end_width * thickness) farthest = std::max(farthest, along);
     }
   }
   if (farthest == 0) return;
-  const double thickness = profile.thickness[end.node];
   LimbSample shortly_before = end;
   shortly_before.circle.centre = inner.circle.centre + out * (farthest * k_end_section);
   end.measured = measure(limb, shortly_before, out, thickness);
