@@ -1,0 +1,140 @@
+// Trees whose hierarchy is known: what other generators wrote, and treegrow's with every difficulty by name.
+#include "lib/analysis/trunk/recover.h"
+#include "lib/formats/import/import.h"
+#include "tests/trunk/exactness.h"
+#include "tools/treegrow/treegrow.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+const std::filesystem::path k_trees = COPSE_SOURCE_DIR "/../shared/trees";
+
+bool names_leaves(const Mesh& mesh, std::uint32_t part) {
+  const Part& p = mesh.parts[part];
+  std::string name = p.object + " " + p.group;
+  if (p.material != k_none) name += " " + mesh.materials[p.material].name;
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return name.find("lea") != std::string::npos || name.find("twig") != std::string::npos;
+}
+
+std::vector<std::uint8_t> trunk_by_name(const Mesh& mesh) {
+  std::vector<std::uint8_t> is_trunk(mesh.triangles.size(), 1);
+  for (std::size_t t = 0; t < is_trunk.size(); ++t) is_trunk[t] = !names_leaves(mesh, mesh.part_of[t]);
+  return is_trunk;
+}
+
+// By name, and where names say nothing: what is not a triangle of its own.
+std::vector<std::uint8_t> trunk_of(const Mesh& mesh) {
+  std::vector<std::uint8_t> is_trunk = trunk_by_name(mesh);
+  if (std::ranges::count(is_trunk, 0) > 0) return is_trunk;
+  std::vector<std::uint32_t> uses(mesh.positions.size(), 0);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) ++uses[v];
+  }
+  for (std::size_t t = 0; t < is_trunk.size(); ++t) {
+    is_trunk[t] = std::ranges::any_of(mesh.triangles[t], [&](std::uint32_t v) { return uses[v] > 1; });
+  }
+  return is_trunk;
+}
+
+class SharedTrees : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SharedTrees, AreRecoveredExactly) {
+  const std::string file = GetParam();
+  const std::string base = file.substr(0, file.find('.'));
+  const auto truth = read_truth(k_trees / "truth" / (base + ".json.gz"));
+  if (!truth) {
+    std::cout << "skipped: " << k_trees << " is not there\n";
+    GTEST_SKIP();
+  }
+  const auto import = import_mesh(k_trees / file);
+  ASSERT_TRUE(import.has_value());
+  const Hierarchy found = recover_hierarchy(make_trunk_mesh(import->mesh, trunk_of(import->mesh)));
+  const Exactness e = measure(*truth, found);
+  EXPECT_TRUE(e.exact()) << e.found << " of " << e.rings << " rings, " << e.parents_right << " parents, "
+                         << e.extra << " extra: " << e.first_fault;
+  for (const std::uint32_t s : found.segment_of) ASSERT_NE(s, k_none);
+}
+
+INSTANTIATE_TEST_SUITE_P(Truth, SharedTrees,
+                         ::testing::Values("ez_oak_small_ideal.obj", "ez_ash_medium.obj.gz",
+                                           "sap_quaking_aspen.obj", "sap_callistemon_quads.obj.gz"),
+                         [](const auto& param) {
+                           const std::string file = param.param;
+                           return file.substr(0, file.find('.'));
+                         });
+
+TrueHierarchy hierarchy_of(const grow::Truth& truth) {
+  TrueHierarchy h;
+  h.height = truth.height;
+  for (const grow::TruthRing& r : truth.rings) {
+    TrueRadius& ring = h.radii.emplace_back();
+    ring.centre = r.centre;
+    ring.diameter = r.diameter;
+    ring.tip = r.tip;
+    ring.same_as = r.same_as;
+    if (r.parent != k_none) ring.parents.push_back(r.parent);
+  }
+  for (const grow::TruthBranch& b : truth.branches) {
+    if (b.parent == k_none) continue;
+    for (const std::uint32_t a : b.attach) {
+      if (a != k_none) h.radii[b.first].parents.push_back(a);
+    }
+  }
+  return h;
+}
+
+Exactness recover_grown(const std::string& species, const std::string& breaks, std::uint64_t seed) {
+  grow::Order order;
+  order.species = *grow::find_species(species);
+  order.seed = seed;
+  order.breaks = grow::parse_breaks(breaks).value();
+  order.triangles = 12000;
+  auto grown = grow::grow_mesh(order);
+  if (!grown) {
+    order.triangles = 0;
+    grown = grow::grow_mesh(order);
+  }
+  Mesh& mesh = grown->mesh;
+  TrueHierarchy truth = hierarchy_of(grown->truth);
+  if (grown->truth.z_up) {
+    orient(mesh, UpAxis::z, 1);
+    for (TrueRadius& r : truth.radii) r.centre = {r.centre.x, r.centre.z, -r.centre.y};
+  }
+  return measure(truth, recover_hierarchy(make_trunk_mesh(mesh, trunk_by_name(mesh))));
+}
+
+class GrownTrees : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(GrownTrees, AreRecoveredExactly) {
+  for (const char* species : {"oak", "spruce", "willow", "palm", "bush", "dead", "grass"}) {
+    const Exactness e = recover_grown(species, GetParam(), 1);
+    EXPECT_TRUE(e.exact()) << species << ": " << e.found << " of " << e.rings << " rings, " << e.parents_right
+                           << " parents, " << e.extra << " extra: " << e.first_fault;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Truth, GrownTrees,
+    ::testing::Values("none", "artist", "free-tubes", "laid-against", "free-tubes,capped-fan",
+                      "free-tubes,capped-ngon,flipped", "free-tubes,pointed,seams,vary-k",
+                      "free-tubes,collapsed-rings,shuffled", "seams,split-normals,shuffled",
+                      "free-tubes,loose-seams,seams", "free-tubes,end-to-end", "free-tubes,end-to-end-turned",
+                      "duplicate-triangles,degenerate-triangles,stray-vertices", "free-tubes,rough",
+                      "free-tubes,several-trees", "free-tubes,root-at-zero", "free-tubes,root-above-ground",
+                      "free-tubes,z-up,centimetres", "free-tubes,far-offset"),
+    [](const auto& param) {
+      std::string name = param.param;
+      std::ranges::replace_if(
+          name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+      return name;
+    });
+
+}  // namespace
+}  // namespace copse
