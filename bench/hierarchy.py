@@ -39,7 +39,7 @@ def grown(species, breaks, folder):
 
 
 def is_exact(e):
-    return e.found == e.rings == e.parents_right and e.leaves == e.true_leaves
+    return e.found == e.rings == e.parents_right and e.extra == 0 and e.leaves == e.true_leaves
 
 
 def row(name, e):
