@@ -1,6 +1,7 @@
 #include "lib/analysis/volumes/convex_hull.h"
 
 #include "lib/analysis/volumes/exact_hull.h"
+#include "lib/analysis/volumes/frame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +25,6 @@ std::size_t farthest(Points points, Measure&& measure) {
     if (m > most) most = m, best = i;
   }
   return best;
-}
-
-Double3 any_normal(const Double3& a) {
-  const Double3 least = std::abs(a.x) <= std::abs(a.y) && std::abs(a.x) <= std::abs(a.z) ? Double3{1, 0, 0}
-                        : std::abs(a.y) <= std::abs(a.z)                                 ? Double3{0, 1, 0}
-                                                                                         : Double3{0, 0, 1};
-  return normalized(cross(a, least));
 }
 
 // Dimension and axes: the longest of a few distances, what is farthest from that line, from that plane.
