@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace copse {
+namespace copse::battery {  // other tests of this program have sets of the same names
 
 struct NamedPoints {
   std::string name;
@@ -136,4 +136,8 @@ inline std::vector<NamedPoints> degenerate_battery() {
   return sets;
 }
 
+}  // namespace copse::battery
+
+namespace copse {
+using namespace battery;
 }  // namespace copse
