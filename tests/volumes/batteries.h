@@ -11,7 +11,7 @@
 
 namespace copse {
 
-struct NamedPoints {
+struct BatterySet {
   std::string name;
   std::vector<Double3> points;
   int dimension = 3;
@@ -109,8 +109,8 @@ inline Points turned(Points p) {  // by some rotation with no special angle
 }
 
 // Sizes and places that float32 can hold.
-inline std::vector<NamedPoints> all() {
-  std::vector<NamedPoints> b{
+inline std::vector<BatterySet> all() {
+  std::vector<BatterySet> b{
       {"one point", {{1, 2, 3}}, 0},
       {"one point, no float32", {{0.1, 0.2, 0.3}}, 0},
       {"100 equal", Points(100, {0.1, -5, 7}), 0},

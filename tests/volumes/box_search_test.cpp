@@ -1,6 +1,6 @@
 #include "lib/analysis/volumes/box_search.h"
 
-#include "tests/volumes/battery.h"
+#include "tests/volumes/awkward_sets.h"
 
 #include <gtest/gtest.h>
 

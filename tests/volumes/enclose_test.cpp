@@ -89,7 +89,7 @@ double needed(const Volume<double>& fit, const Volume<float>& stored, const Poin
 }
 
 TEST(Enclose, EveryVolumeOfTheBatteryIsCertifiedAsStored) {
-  for (const NamedPoints& set : battery::all()) {
+  for (const BatterySet& set : battery::all()) {
     for (const bool turned : {false, true}) {
       for (const Volume<double>& fit : fits(set.points, turned)) {
         const auto e = enclose(fit, set.points);
@@ -103,7 +103,7 @@ TEST(Enclose, EveryVolumeOfTheBatteryIsCertifiedAsStored) {
 }
 
 TEST(Enclose, InflatesByAFewUnitsInTheLastPlaceOfTheSize) {
-  for (const NamedPoints& set : battery::all()) {
+  for (const BatterySet& set : battery::all()) {
     for (const bool turned : {false, true}) {
       for (const Volume<double>& fit : fits(set.points, turned)) {
         const auto e = enclose(fit, set.points);

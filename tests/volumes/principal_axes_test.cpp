@@ -1,6 +1,6 @@
 #include "lib/analysis/volumes/principal_axes.h"
 
-#include "tests/volumes/battery.h"
+#include "tests/volumes/awkward_sets.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "lib/analysis/volumes/volume_measures.h"
 
-#include "tests/volumes/battery.h"
+#include "tests/volumes/awkward_sets.h"
 
 #include <numbers>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace copse::battery {  // other tests of this program have sets of the same names
+namespace copse::awkward {  // other tests of this program have sets of the same names
 
 struct NamedPoints {
   std::string name;
@@ -136,8 +136,8 @@ inline std::vector<NamedPoints> degenerate_battery() {
   return sets;
 }
 
-}  // namespace copse::battery
+}  // namespace copse::awkward
 
 namespace copse {
-using namespace battery;
+using namespace awkward;
 }  // namespace copse
