@@ -42,7 +42,7 @@ struct Curve {
 };
 
 // A picture for the page: an SVG fragment (<svg ...>...</svg>) with a caption.
-struct Picture {
+struct ReportPicture {
   std::string title, caption, svg;
 };
 
@@ -63,7 +63,7 @@ struct Report {
   std::vector<ErrorRecord> errors;
   std::vector<Curve> curves;
   std::vector<Table> tables;
-  std::vector<Picture> pictures;  // for the page only
+  std::vector<ReportPicture> pictures;  // for the page only
   std::vector<std::string> warnings;
 };
 

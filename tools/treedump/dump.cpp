@@ -45,7 +45,10 @@ constexpr std::array k_sections{Name{"HEAD", "header"},
                                 Name{"VSET", "sets of bounding volumes"},
                                 Name{"VOLU", "bounding volumes"},
                                 Name{"VNUM", "numbers of the volumes"},
-                                Name{"VNOD", "hierarchy of volumes"}};
+                                Name{"VNOD", "hierarchy of volumes"},
+                                Name{"LSTR", "level-of-detail spectrum of the trunk"},
+                                Name{"LSLV", "level-of-detail spectrum of the leaves"},
+                                Name{"LSLD", "levels of detail"}};
 
 void note(Dump& dump, const Error& error) {
   if (!dump.problem) dump.problem = error;

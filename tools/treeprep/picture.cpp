@@ -117,16 +117,16 @@ std::string draw_groups(const std::vector<LeafGroup>& groups, const Double3& ori
 }
 
 template <class Overlay>
-Result<std::vector<Picture>> pictures(const Mesh& mesh, const Classification& classes, double opacity,
-                                      const std::string& title, const std::string& caption,
-                                      const Overlay& overlay) {
-  std::vector<Picture> out;
+Result<std::vector<ReportPicture>> pictures(const Mesh& mesh, const Classification& classes, double opacity,
+                                            const std::string& title, const std::string& caption,
+                                            const Overlay& overlay) {
+  std::vector<ReportPicture> out;
   const DoubleBox box = bounds(mesh);
   for (const bool side : {false, true}) {
     const OrthographicView view = frame_box(box, side ? std::numbers::pi / 2 : 0, k_width, k_height);
     const auto png = encode_png(draw_mesh(mesh, classes, view, opacity));
     if (!png) return std::unexpected(png.error());
-    Picture picture{title + (side ? ", from the side" : ", from the front"), caption, ""};
+    ReportPicture picture{title + (side ? ", from the side" : ", from the front"), caption, ""};
     picture.svg = fmt::format(
         R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img" stroke-width="1">)"
         R"(<title>{2}</title><image width="{0}" height="{1}" href="data:image/png;base64,{3}"/>{4}</svg>)",
@@ -138,8 +138,8 @@ Result<std::vector<Picture>> pictures(const Mesh& mesh, const Classification& cl
 
 }  // namespace
 
-Result<std::vector<Picture>> skeleton_pictures(const Mesh& mesh, const Classification& classes,
-                                               const Hierarchy& hierarchy) {
+Result<std::vector<ReportPicture>> skeleton_pictures(const Mesh& mesh, const Classification& classes,
+                                                     const Hierarchy& hierarchy) {
   return pictures(
       mesh, classes, 0.55, "Skeleton over the mesh",
       "Every recovered segment's axis, coloured by the number of forks from the root; the large dot is a "
@@ -147,8 +147,9 @@ Result<std::vector<Picture>> skeleton_pictures(const Mesh& mesh, const Classific
       [&](const OrthographicView& view) { return draw_axes(hierarchy, view); });
 }
 
-Result<std::vector<Picture>> group_pictures(const Mesh& mesh, const Classification& classes,
-                                            const std::vector<LeafGroup>& groups, const Double3& origin) {
+Result<std::vector<ReportPicture>> group_pictures(const Mesh& mesh, const Classification& classes,
+                                                  const std::vector<LeafGroup>& groups,
+                                                  const Double3& origin) {
   if (groups.empty()) return {};
   return pictures(mesh, classes, 1, "Leaf groups", "The bounding sphere of every leaf group.",
                   [&](const OrthographicView& view) { return draw_groups(groups, origin, view); });

@@ -15,11 +15,12 @@ namespace copse::treeprep {
 
 // From the front and from the side: the mesh (trunk brown, leaves green), rasterised, and over it the axis of
 // every segment, coloured by how many forks it is away from the root; joints dashed.
-Result<std::vector<Picture>> skeleton_pictures(const Mesh& mesh, const Classification& classes,
-                                               const Hierarchy& hierarchy);
+Result<std::vector<ReportPicture>> skeleton_pictures(const Mesh& mesh, const Classification& classes,
+                                                     const Hierarchy& hierarchy);
 
 // The leaf groups' spheres over the leaves; nothing when there are none. `origin` is the groups'.
-Result<std::vector<Picture>> group_pictures(const Mesh& mesh, const Classification& classes,
-                                            const std::vector<LeafGroup>& groups, const Double3& origin);
+Result<std::vector<ReportPicture>> group_pictures(const Mesh& mesh, const Classification& classes,
+                                                  const std::vector<LeafGroup>& groups,
+                                                  const Double3& origin);
 
 }  // namespace copse::treeprep

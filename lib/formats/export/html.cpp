@@ -239,7 +239,7 @@ void add_tables(std::string& out, const Report& report) {
 void add_pictures(std::string& out, const Report& report) {
   if (report.pictures.empty()) return;
   out += "<section><h2>Pictures</h2><div class=\"pictures\">";
-  for (const Picture& picture : report.pictures) {
+  for (const ReportPicture& picture : report.pictures) {
     out += fmt::format(
         "<figure role=\"group\" "
         "aria-label=\"{}\">{}<figcaption><strong>{}</strong>{}{}</figcaption></figure>",

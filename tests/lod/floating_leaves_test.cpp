@@ -1,0 +1,68 @@
+#include "lib/analysis/lod/floating_leaves.h"
+
+#include "lib/analysis/lod/spectrum_builder.h"
+#include "lib/analysis/lod/trunk_radii.h"
+#include "tests/lod/tube_tree.h"
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+// A leaf at the tip of every twig, and one big leaf on the stem that takes their place in the end.
+LodSpectra with_leaves(const Tree& tree, double size) {
+  LodSpectra s;
+  s.trunk = trunk_by_radii(tree);
+  SpectrumBuilder b(LodMethod::collapse);
+  const std::vector<Double3> centres = absolute_centres(tree);
+  const auto leaf = [&](std::uint32_t r, double half) {
+    std::array<std::uint32_t, 3> v{};
+    for (std::size_t c = 0; c < 3; ++c)
+      v[c] = b.vertex({to_float(centres[r] + Double3{c == 0   ? half
+                                                     : c == 1 ? -half
+                                                              : 0.0,
+                                                     c == 2 ? half : 0.0, 0}),
+                       {},
+                       {}});
+    return b.element(k_none, r, std::span(&v, 1));
+  };
+  std::vector<std::uint32_t> leaves;
+  for (std::uint32_t r = 0; r < tree.radius_count(); ++r)
+    if (tree.hierarchy.radii[r].flags & Radius::terminal && !(tree.hierarchy.radii[r].flags & Radius::joint))
+      leaves.push_back(leaf(r, size));
+  b.step(1);
+  for (const std::uint32_t l : leaves) b.remove(l);
+  leaf(0, size);
+  s.leaves = b.finish();
+  return s;
+}
+
+TEST(FloatingLeaves, NoneAtFullDetail) {
+  Tree tree = stem_with_twigs(6, 8, 5);
+  EXPECT_EQ(FloatingLeaves(tree, with_leaves(tree, 0.05)).count({}), 0u);
+}
+
+TEST(FloatingLeaves, SmallLeavesFloatWhenTheirTwigsAreGone) {
+  Tree tree = stem_with_twigs(6, 8, 5);
+  const LodSpectra s = with_leaves(tree, 0.02);
+  const FloatingLeaves floating(tree, s);
+  // The step at which the twigs are gone and the stem is not: the last one before nothing is left.
+  LodLevel level{.trunk_steps = s.trunk.steps() - 1};
+  EXPECT_GE(floating.count(level), 5u);
+  // What took their place hangs on the stem.
+  level.leaf_steps = 1;
+  EXPECT_EQ(floating.count(level), 0u);
+}
+
+TEST(FloatingLeaves, ALeafThatReachesTheStemDoesNotFloat) {
+  Tree tree = stem_with_twigs(6, 8, 5);
+  const LodSpectra s = with_leaves(tree, 2.0);
+  EXPECT_EQ(FloatingLeaves(tree, s).count({.trunk_steps = s.trunk.steps() - 1}), 0u);
+}
+
+TEST(FloatingLeaves, WithoutATrunkNothingFloats) {
+  EXPECT_EQ(FloatingLeaves(Tree{}, LodSpectra{}).count({}), 0u);
+}
+
+}  // namespace
+}  // namespace copse
