@@ -1,11 +1,16 @@
 // Leaves at a tenth, a fiftieth, ... of their triangles: what leaf collapse and its peers keep of them.
 //
-//   lod_leaves_bench TREE...      .tree or .stree files that hold leaves
+//   bench_lod_leaves [--views N] [--ratio R] [--no-peers] TREE...      .tree or .stree files that hold leaves
+//
+// Each ratio of triangles at the size in pixels at which it would be shown; times are of all threads
+// together.
+#include "lib/analysis/lod/leaf_collapse.h"
 #include "lib/analysis/measure/lod_quality.h"
 #include "lib/formats/import/image.h"
 #include "lib/formats/tree_file.h"
 
-#include <chrono>
+#include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <span>
 
@@ -15,10 +20,13 @@
 namespace {
 
 using namespace copse;
-using Clock = std::chrono::steady_clock;
+// Of all threads together: what a core would need, however busy the machine is.
+struct Clock {
+  static std::clock_t now() { return std::clock(); }
+};
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+double seconds_since(std::clock_t start) {
+  return double(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 DrawnMesh meshopt(const DrawnMesh& source, std::size_t triangles, bool sloppy) {
@@ -55,7 +63,13 @@ int size_for(double ratio) {
   return ratio >= 0.25 ? 512 : ratio >= 0.05 ? 128 : 32;
 }
 
-void bench(const std::filesystem::path& path) {
+struct Options {
+  int views = 42;
+  double only = 0;  // one ratio; 0: all of them
+  bool peers = true;
+};
+
+void bench(const std::filesystem::path& path, const Options& options) {
   const auto file = TreeFile::open(path);
   if (!file) return fmt::print("{}\n", to_line(file.error(), "bench"));
   const auto loaded = file->load();
@@ -74,15 +88,24 @@ void bench(const std::filesystem::path& path) {
   });
   const Looks looks{tree.materials, masks};
   const std::string name = path.stem().string();
+  const auto start = Clock::now();
+  const Spectrum spectrum = collapse_spectrum(tree);
+  const double collapse_seconds = seconds_since(start);
+  const DrawnMesh full = drawn_state(spectrum, 0);
   for (const double ratio : {0.5, 0.25, 0.1, 0.05, 0.02}) {
-    const LodJudge judge(source, looks, {.views = 42, .image_size = size_for(ratio)});
+    if (options.only > 0 && ratio != options.only) continue;
+    const LodJudge judge(full, looks, {.views = options.views, .image_size = size_for(ratio)});
     const auto target = static_cast<std::size_t>(ratio * double(source.triangles.size()));
     for (const bool sloppy : {false, true}) {
-      const auto start = Clock::now();
+      if (!options.peers) break;
+      const auto begin = Clock::now();
       const DrawnMesh level = meshopt(source, target, sloppy);
-      const double s = seconds_since(start);
+      const double s = seconds_since(begin);
       row(name, sloppy ? "sloppy" : "meshopt", ratio, judge.measure(level), s);
     }
+    std::uint32_t n = 0;
+    while (n < spectrum.steps() && spectrum.counts[n] > target) ++n;
+    row(name, "collapse", ratio, judge.measure(drawn_state(spectrum, n)), collapse_seconds);
   }
 }
 
@@ -92,5 +115,16 @@ int main(int argc, char** argv) {
   fmt::print("{:24} {:10} {:>5} {:>7} {:>6} {:>6} {:>10} {:>6} {:>6} {:>7} {:>7} {:>7} {:>8}\n", "tree",
              "method", "ratio", "tris", "area", "cover", "lo-hi", "iou", "iou-lo", "rmse", "ssim", "hull+",
              "Mtri/s");
-  for (int i = 1; i < argc; ++i) bench(argv[i]);
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--no-peers")
+      options.peers = false;
+    else if (argument == "--views" && i + 1 < argc)
+      options.views = std::atoi(argv[++i]);
+    else if (argument == "--ratio" && i + 1 < argc)
+      options.only = std::atof(argv[++i]);
+    else
+      bench(argument, options);
+  }
 }

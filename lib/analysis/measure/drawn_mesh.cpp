@@ -107,6 +107,31 @@ DrawnMesh drawn_trunk(const Tree& tree) {
   return unify.take();
 }
 
+DrawnMesh drawn_state(const Spectrum& spectrum, std::uint32_t steps) {
+  DrawnMesh mesh;
+  std::vector<std::uint32_t> at(spectrum.vertices.size(), k_none);
+  for (std::size_t e = 0; e < spectrum.elements.size(); ++e) {
+    const SpectrumElement& element = spectrum.elements[e];
+    if (element.birth > steps || element.death <= steps) continue;
+    for (std::uint32_t t = spectrum.first_triangle[e]; t < spectrum.first_triangle[e + 1]; ++t) {
+      Triangle corners{};
+      for (int c = 0; c < 3; ++c) {
+        const std::uint32_t v = spectrum.triangles[t][c];
+        if (at[v] == k_none) {
+          at[v] = static_cast<std::uint32_t>(mesh.positions.size());
+          mesh.positions.push_back(to_double(spectrum.vertices[v].position));
+          mesh.normals.push_back(spectrum.vertices[v].normal);
+          mesh.texcoords.push_back(spectrum.vertices[v].texcoord);
+        }
+        corners[c] = at[v];
+      }
+      mesh.triangles.push_back(corners);
+      mesh.material.push_back(element.material);
+    }
+  }
+  return mesh;
+}
+
 void append(DrawnMesh& mesh, const DrawnMesh& more) {
   const auto base = static_cast<std::uint32_t>(mesh.positions.size());
   const auto pad = [&](auto& to, const auto& from, std::size_t before, std::size_t after) {

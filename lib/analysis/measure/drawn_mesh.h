@@ -3,6 +3,7 @@
 
 #include "lib/analysis/measure/texture_statistics.h"
 #include "lib/formats/mesh.h"
+#include "lib/formats/spectrum.h"
 #include "lib/formats/tree.h"
 
 #include <cstdint>
@@ -37,6 +38,9 @@ std::vector<AlphaMask> alpha_masks(std::span<const Material> materials, const Im
 // lacks a normal or a texture coordinate gets zeros when others of its kind have one.
 DrawnMesh drawn_leaves(const Tree& tree);
 DrawnMesh drawn_trunk(const Tree& tree);
+
+// What is drawn of a spectrum after `steps` steps, with the positions that it uses.
+DrawnMesh drawn_state(const Spectrum& spectrum, std::uint32_t steps);
 
 // Puts `more` behind what is there.
 void append(DrawnMesh& mesh, const DrawnMesh& more);

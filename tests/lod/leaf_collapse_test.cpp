@@ -1,0 +1,117 @@
+#include "lib/analysis/lod/leaf_collapse.h"
+
+#include "lib/analysis/measure/lod_quality.h"
+#include "tests/lod/leafy_tree.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+namespace copse {
+namespace {
+
+std::uint32_t step_with(const Spectrum& s, std::size_t triangles) {
+  std::uint32_t n = 0;
+  while (n < s.steps() && s.counts[n] > triangles) ++n;
+  return n;
+}
+
+TEST(LeafCollapse, RunsFromAllLeavesToOne) {
+  const Spectrum s = collapse_spectrum(LeafyTree{}.make());
+  EXPECT_EQ(s.method, LodMethod::collapse);
+  EXPECT_EQ(s.counts[0], 400u);
+  EXPECT_EQ(s.counts[s.steps()], 1u);
+  EXPECT_EQ(s.steps(), 399u) << "one triangle less a step";
+}
+
+TEST(LeafCollapse, BeginsWithTheTreesOwnLeaves) {
+  const Tree tree = LeafyTree{}.make();
+  const DrawnMesh full = drawn_leaves(tree), state = drawn_state(collapse_spectrum(tree), 0);
+  EXPECT_EQ(state.triangles.size(), full.triangles.size());
+  EXPECT_NEAR(area(state), area(full), 1e-9 * area(full));
+}
+
+TEST(LeafCollapse, CountsAreWhatIsDrawnAtEveryStep) {
+  for (const bool alpha : {false, true}) {
+    const Spectrum s = collapse_spectrum(LeafyTree{.leaves = 60, .alpha = alpha}.make());
+    for (std::uint32_t n = 0; n <= s.steps(); ++n) EXPECT_EQ(drawn_state(s, n).triangles.size(), s.counts[n]);
+  }
+}
+
+TEST(LeafCollapse, KeepsTheSumOfAreasAtEveryStepWhileItFits) {
+  for (const bool alpha : {false, true}) {
+    const Spectrum s = collapse_spectrum(LeafyTree{.leaves = 100, .alpha = alpha}.make());
+    const double full = area(drawn_state(s, 0));
+    for (std::uint32_t n = 0; n <= s.steps(); ++n) {
+      if (s.counts[n] >= 8) {
+        EXPECT_NEAR(area(drawn_state(s, n)) / full, 1, 1e-5) << n;
+      }
+    }
+  }
+}
+
+TEST(LeafCollapse, ErrorsAndCountsAreMonotone) {
+  const Spectrum s = collapse_spectrum(LeafyTree{}.make());
+  for (std::uint32_t n = 1; n <= s.steps(); ++n) {
+    EXPECT_GE(s.errors[n], s.errors[n - 1]);
+    EXPECT_LT(s.counts[n], s.counts[n - 1]);
+  }
+}
+
+TEST(LeafCollapse, HoldsAreaAndCoverageTogether) {
+  const Tree tree = LeafyTree{.leaves = 3000, .half = 0.12}.make();
+  const Spectrum s = collapse_spectrum(tree);
+  const LodJudge judge(drawn_state(s, 0), {}, {.views = 12, .image_size = 64, .mask_size = 128});
+  for (const double ratio : {0.25, 0.1, 0.02}) {
+    const LodQuality q = judge.measure(drawn_state(s, step_with(s, std::size_t(ratio * 6000))));
+    EXPECT_NEAR(q.area_ratio, 1, 0.02) << ratio;
+    EXPECT_NEAR(q.coverage_ratio, 1, ratio < 0.1 ? 0.1 : 0.05) << ratio;
+    EXPECT_LE(q.hull_growth, 0.03) << ratio;
+    EXPECT_GE(q.iou, 0.8) << ratio;
+  }
+}
+
+TEST(LeafCollapse, CardsStayWholePicturesOfOneMaterial) {
+  const Spectrum s = collapse_spectrum(LeafyTree{.leaves = 50, .alpha = true}.make());
+  EXPECT_EQ(s.counts[s.steps()], 2u);
+  const DrawnMesh last = drawn_state(s, s.steps());
+  ASSERT_EQ(last.positions.size(), 4u);
+  FloatBox uv;
+  for (const Float2& t : last.texcoords) uv.grow(Float3{t.x, t.y, 0});
+  EXPECT_EQ(uv.min, (Float3{0, 0, 0}));
+  EXPECT_EQ(uv.max, (Float3{1, 1, 0}));
+  EXPECT_EQ(last.material, (std::vector<std::uint32_t>{0, 0}));
+}
+
+TEST(LeafCollapse, DoesNotDependOnTheNumberOfThreads) {
+  const Tree tree = LeafyTree{.leaves = 500}.make();
+  const Spectrum many = collapse_spectrum(tree);
+  tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const Spectrum single = collapse_spectrum(tree);
+  EXPECT_TRUE(
+      std::equal(many.vertices.begin(), many.vertices.end(), single.vertices.begin(), single.vertices.end()));
+  EXPECT_TRUE(
+      std::equal(many.elements.begin(), many.elements.end(), single.elements.begin(), single.elements.end()));
+  EXPECT_TRUE(std::equal(many.errors.begin(), many.errors.end(), single.errors.begin(), single.errors.end()));
+}
+
+TEST(LeafCollapse, OfNoLeavesIsEmpty) {
+  const Spectrum s = collapse_spectrum(Tree{});
+  EXPECT_EQ(s.steps(), 0u);
+  EXPECT_TRUE(s.elements.empty());
+}
+
+TEST(LeafCollapse, DegenerateLeavesGiveFiniteStates) {
+  for (const double size : {0.0, 1e-20, 1e15}) {
+    for (const std::uint32_t leaves : {1u, 2u, 30u}) {
+      const Spectrum s = collapse_spectrum(LeafyTree{.leaves = leaves, .half = size, .radius = size}.make());
+      EXPECT_EQ(s.counts[s.steps()], 1u);
+      for (const SpectrumVertex& v : s.vertices) EXPECT_TRUE(is_finite(v.position)) << size;
+      for (const float e : s.errors) EXPECT_TRUE(std::isfinite(e));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace copse
