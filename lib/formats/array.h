@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,6 +34,11 @@ class Array {
   auto end() const { return view_.end(); }
   std::span<const T> span() const { return view_; }
   operator std::span<const T>() const { return view_; }  // NOLINT: reads as a span everywhere
+  // The same memory as bytes, kept alive by the same owner.
+  Array<std::uint8_t> as_bytes() const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return {{reinterpret_cast<const std::uint8_t*>(view_.data()), view_.size_bytes()}, owner_};
+  }
   std::vector<T> to_vector() const { return {view_.begin(), view_.end()}; }
 
  private:

@@ -36,12 +36,19 @@ fs::path follow_links(fs::path path) {
   return path;
 }
 
-int write_all(int file, std::string_view bytes) {
+int write_all(int file, std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(file, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return errno;
-    bytes.remove_prefix(static_cast<std::size_t>(n));
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+  return 0;
+}
+
+int write_all(int file, const Pieces& pieces) {
+  for (const auto& piece : pieces.list()) {
+    if (const int error = write_all(file, piece.span())) return error;
   }
   return 0;
 }
@@ -59,7 +66,7 @@ int open_beside(const fs::path& target, fs::path& temporary) {
 }
 
 // Writes, keeps the permissions of the file that will be replaced, syncs. 0, or errno.
-int fill(int file, const fs::path& target, std::string_view bytes) {
+int fill(int file, const fs::path& target, const Pieces& bytes) {
   struct stat old {};
   if (::stat(target.c_str(), &old) == 0 && ::fchmod(file, old.st_mode & 07777) != 0) return errno;
   if (const int error = write_all(file, bytes)) return error;
@@ -74,27 +81,27 @@ void sync_folder(const fs::path& folder) {
   ::close(file);
 }
 
-int write_directly(const fs::path& path, std::string_view bytes) {
+int write_directly(const fs::path& path, std::span<const std::uint8_t> bytes) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) return errno;
   const int error = write_all(file, bytes);
   return ::close(file) == 0 || error ? error : errno;
 }
 
-std::string_view as_text(std::span<const std::uint8_t> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 }  // namespace
 
-Result<void> write_file(const fs::path& path, std::string_view bytes) {
+Result<void> write_file(const fs::path& path, const Pieces& bytes) {
   OutputGroup group;
   if (auto added = group.add(path, bytes); !added) return added;
   return group.commit();
 }
 
+Result<void> write_file(const fs::path& path, std::string_view bytes) {
+  return write_file(path, Pieces::borrowed(bytes));
+}
+
 Result<void> write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
-  return write_file(path, as_text(bytes));
+  return write_file(path, Pieces({bytes, nullptr}));
 }
 
 OutputGroup::OutputGroup(OutputGroup&& other) noexcept : pending_(std::exchange(other.pending_, {})) {}
@@ -118,18 +125,22 @@ void OutputGroup::discard() noexcept {
   pending_.clear();
 }
 
-Result<void> OutputGroup::add(const fs::path& path, std::span<const std::uint8_t> bytes) {
-  return add(path, as_text(bytes));
+Result<void> OutputGroup::add(const fs::path& path, std::string_view bytes) {
+  return add(path, Pieces::borrowed(bytes));
 }
 
-Result<void> OutputGroup::add(const fs::path& path, std::string_view bytes) {
+Result<void> OutputGroup::add(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  return add(path, Pieces({bytes, nullptr}));
+}
+
+Result<void> OutputGroup::add(const fs::path& path, const Pieces& bytes) {
   if (path.empty()) return fail(Fault::io, "", "the output has no name", "name a file");
   Pending entry{.named = path, .target = follow_links(path), .temporary = {}, .contents = {}};
   struct stat status {};
   if (::stat(entry.target.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
     if (S_ISDIR(status.st_mode)) return fail(Fault::io, path.string(), "is a folder", "name a file in it");
     if (::access(entry.target.c_str(), W_OK) != 0) return io_error(path, errno);
-    entry.contents = bytes;
+    entry.contents = bytes.joined();
     pending_.push_back(std::move(entry));
     return {};
   }

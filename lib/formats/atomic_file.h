@@ -1,6 +1,7 @@
 // Output files that appear under their names only when they are whole.
 #pragma once
 
+#include "lib/formats/pieces.h"
 #include "lib/formats/result.h"
 
 #include <cstdint>
@@ -15,6 +16,7 @@ namespace copse {
 // Writes beside `path` (same folder, a name of its own), syncs, renames: a reader sees the old file or the
 // new one, never a part. A symbolic link is followed, an existing file's permissions are kept. What exists
 // and is not a regular file (a pipe, /dev/null) is written to directly.
+Result<void> write_file(const std::filesystem::path& path, const Pieces& bytes);
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
@@ -31,6 +33,7 @@ class OutputGroup {
   ~OutputGroup();
 
   // The same target twice: the later contents win.
+  Result<void> add(const std::filesystem::path& path, const Pieces& bytes);
   Result<void> add(const std::filesystem::path& path, std::string_view bytes);
   Result<void> add(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
   Result<void> commit();
@@ -40,7 +43,7 @@ class OutputGroup {
     std::filesystem::path named;      // as the user wrote it, for messages
     std::filesystem::path target;     // with symbolic links followed
     std::filesystem::path temporary;  // empty: `contents` go directly into a pipe or device
-    std::string contents;
+    std::vector<std::uint8_t> contents;
   };
   void discard() noexcept;
   std::vector<Pending> pending_;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "lib/formats/array.h"
+#include "lib/formats/pieces.h"
 #include "lib/formats/result.h"
 
 #include <cstdint>
@@ -93,7 +94,8 @@ class ContainerWriter {
                    Array<std::uint8_t> decoded, Encoding encoding = Encoding::raw);
   void remove(std::string_view name);
 
-  // The bytes of the file. Deterministic.
+  // The bytes of the file. Deterministic. Pieces share what was put: nothing is copied but header and table.
+  Result<Pieces> pieces() const;
   Result<std::vector<std::uint8_t>> finish() const;
 
  private:

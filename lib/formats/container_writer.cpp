@@ -48,14 +48,16 @@ void write_entry(std::span<std::uint8_t> entry, const SectionInfo& s) {
   put(entry, k_entry_checksum, s.checksum);
 }
 
-void write_header(std::span<std::uint8_t> file, FileKind kind, std::size_t sections) {
-  std::copy(k_magic.begin(), k_magic.end(), file.begin());
-  put(file, k_version, k_container_version);
-  put(file, k_kind, static_cast<std::uint32_t>(kind));
-  put(file, k_section_count, static_cast<std::uint32_t>(sections));
-  put(file, k_file_size, std::uint64_t{file.size()});
-  put(file, k_table_checksum, xxh3(file.subspan(k_header_size, sections * k_entry_size)));
-  put(file, k_header_checksum, xxh3(file.first(k_header_checksum)));
+// `front`: header and table, the latter filled in.
+void write_header(std::span<std::uint8_t> front, FileKind kind, std::size_t sections,
+                  std::uint64_t file_size) {
+  std::copy(k_magic.begin(), k_magic.end(), front.begin());
+  put(front, k_version, k_container_version);
+  put(front, k_kind, static_cast<std::uint32_t>(kind));
+  put(front, k_section_count, static_cast<std::uint32_t>(sections));
+  put(front, k_file_size, file_size);
+  put(front, k_table_checksum, xxh3(front.subspan(k_header_size, sections * k_entry_size)));
+  put(front, k_header_checksum, xxh3(front.first(k_header_checksum)));
 }
 
 }  // namespace
@@ -100,7 +102,7 @@ void ContainerWriter::remove(std::string_view name) {
   std::erase_if(sections_, [&](const Section& s) { return s.info.name == name; });
 }
 
-Result<std::vector<std::uint8_t>> ContainerWriter::finish() const {
+Result<Pieces> ContainerWriter::pieces() const {
   if (sections_.size() > k_max_sections) {
     return fail(Fault::bug, "", fmt::format("{} sections, the limit is {}", sections_.size(), k_max_sections),
                 "report this");
@@ -131,14 +133,23 @@ Result<std::vector<std::uint8_t>> ContainerWriter::finish() const {
     most->info.checksum = xxh3(most->bytes.span());
     size = lay_out();
   }
-  std::vector<std::uint8_t> file(size);
+  std::vector<std::uint8_t> front(k_header_size + sections.size() * k_entry_size);
   for (std::size_t i = 0; i < sections.size(); ++i) {
-    const Section& s = sections[i];
-    std::copy(s.bytes.begin(), s.bytes.end(), file.begin() + static_cast<std::ptrdiff_t>(s.info.offset));
-    write_entry(std::span(file).subspan(k_header_size + i * k_entry_size, k_entry_size), s.info);
+    write_entry(std::span(front).subspan(k_header_size + i * k_entry_size, k_entry_size), sections[i].info);
   }
-  write_header(file, kind_, sections.size());
+  write_header(front, kind_, sections.size(), size);
+  Pieces file{std::move(front)};
+  for (Section& s : sections) {
+    file.add(std::vector<std::uint8_t>(s.info.offset - file.size()));  // padding
+    file.add(std::move(s.bytes));
+  }
   return file;
+}
+
+Result<std::vector<std::uint8_t>> ContainerWriter::finish() const {
+  const auto file = pieces();
+  if (!file) return std::unexpected(file.error());
+  return file->joined();
 }
 
 }  // namespace copse

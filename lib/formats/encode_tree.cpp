@@ -30,17 +30,16 @@ class Sections {
   }
   template <class T>
   void put_array(std::string_view name, const Array<T>& array) {
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(array.data());
-    put(name, sizeof(T), {std::span(bytes, array.size() * sizeof(T)), nullptr});
+    put(name, sizeof(T), array.as_bytes());
   }
   // HEAD and OMIT stay raw: they are read whenever a file is opened.
   void put_raw(std::string_view name, std::uint32_t stride, std::vector<std::uint8_t> bytes) {
     if (!state_ || bytes.empty()) return;
     state_ = writer_.put(name, k_tree_section_version, stride, std::move(bytes), Encoding::raw);
   }
-  Result<std::vector<std::uint8_t>> finish() const {
+  Result<Pieces> finish() const {
     if (!state_) return std::unexpected(state_.error());
-    return writer_.finish();
+    return writer_.pieces();
   }
 
  private:
@@ -51,7 +50,7 @@ class Sections {
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> encode_tree(const Tree& whole, const WriteOptions& options) {
+Result<Pieces> encode_tree_pieces(const Tree& whole, const WriteOptions& options) {
   if (const auto wrong = check_sizes(whole); !wrong.empty()) {
     return fail(Fault::bug, "", "a tree that cannot be stored: " + wrong.front(), "report this");
   }
@@ -75,6 +74,12 @@ Result<std::vector<std::uint8_t>> encode_tree(const Tree& whole, const WriteOpti
   });
   sections.put("TDAT", 1, std::move(textures.images));
   return sections.finish();
+}
+
+Result<std::vector<std::uint8_t>> encode_tree(const Tree& tree, const WriteOptions& options) {
+  const auto pieces = encode_tree_pieces(tree, options);
+  if (!pieces) return std::unexpected(pieces.error());
+  return pieces->joined();
 }
 
 }  // namespace copse

@@ -32,6 +32,13 @@ std::string hash_of(std::string_view bytes) {
   return hash_text(xxh3(bytes));
 }
 
+std::string hash_of(const Pieces& pieces) {
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  for (const auto& piece : pieces.list()) XXH3_64bits_update(state.get(), piece.data(), piece.size());
+  return hash_text(XXH3_64bits_digest(state.get()));
+}
+
 Result<FileRecord> hash_file(const std::filesystem::path& path) {
   const auto failed = [&] {
     return fail(Fault::io, path.string(), std::strerror(errno), "check the path and its permissions");

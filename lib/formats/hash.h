@@ -2,6 +2,7 @@
 // damage, not forgery.
 #pragma once
 
+#include "lib/formats/pieces.h"
 #include "lib/formats/report.h"
 #include "lib/formats/result.h"
 
@@ -21,6 +22,7 @@ std::uint64_t xxh3(std::string_view bytes);
 std::string hash_text(std::uint64_t hash);
 std::string hash_of(std::span<const std::uint8_t> bytes);
 std::string hash_of(std::string_view bytes);
+std::string hash_of(const Pieces& pieces);  // of all of them as one
 
 // Path, size and hash of a file, read once from front to back in bounded memory.
 Result<FileRecord> hash_file(const std::filesystem::path& path);

@@ -36,6 +36,8 @@ struct WriteOptions {
 // The bytes of the file. Deterministic: the same tree and options give the same bytes. A tree whose arrays do
 // not fit together is a bug of the caller and refused as such; elements are not checked (check_tree does).
 Result<std::vector<std::uint8_t>> encode_tree(const Tree& tree, const WriteOptions& options = {});
+// The same without a copy of what is stored raw: the pieces share the tree's arrays.
+Result<Pieces> encode_tree_pieces(const Tree& tree, const WriteOptions& options = {});
 
 class TreeFile {
  public:

@@ -1,5 +1,7 @@
 #include "lib/formats/atomic_file.h"
 
+#include "lib/formats/hash.h"
+
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -50,6 +52,17 @@ TEST_F(AtomicFile, WritesTheBytesAndNothingElse) {
   EXPECT_THAT(names(), ElementsAre("out"));
   ASSERT_TRUE(write_file(at("out"), std::string_view()));
   EXPECT_EQ(text("out"), "");
+}
+
+TEST_F(AtomicFile, PiecesAreWrittenOneAfterTheOther) {
+  Pieces pieces = Pieces::borrowed("ab");
+  pieces.add(std::vector<std::uint8_t>{'c', 0});
+  pieces.add({});
+  pieces.add(std::vector<std::uint8_t>{'d'});
+  EXPECT_EQ(pieces.size(), 5u);
+  ASSERT_TRUE(write_file(at("out"), pieces));
+  EXPECT_EQ(text("out"), std::string("abc\0d", 5));
+  EXPECT_EQ(hash_of(pieces), hash_of(pieces.joined()));
 }
 
 TEST_F(AtomicFile, AGroupIsInvisibleUntilItIsCommitted) {

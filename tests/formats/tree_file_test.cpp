@@ -78,6 +78,15 @@ TEST(TreeFile, OpensAFileOnDiskAndOutlivesIt) {
   EXPECT_EQ(TreeFile::open(path).error().fault, Fault::io);
 }
 
+TEST(TreeFile, PiecesShareRawArraysAndAreTheSameFile) {
+  const Tree tree = sample();
+  const auto pieces = encode_tree_pieces(tree);
+  ASSERT_TRUE(pieces);
+  EXPECT_EQ(pieces->joined(), *encode_tree(tree));
+  const auto* triangles = reinterpret_cast<const std::uint8_t*>(tree.trunk.triangles.data());
+  EXPECT_TRUE(std::ranges::any_of(pieces->list(), [&](const auto& p) { return p.data() == triangles; }));
+}
+
 TEST(TreeFile, UsesRawArraysWhereTheyLie) {
   const auto file = TreeFile::from_bytes(*encode_tree(sample()), "f");
   const auto first = file->load(), second = file->load();

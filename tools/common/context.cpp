@@ -170,7 +170,11 @@ Result<void> ToolContext::check_output(const fs::path& path) {
   return Outputs::check(path);
 }
 
-Result<void> ToolContext::write(const fs::path& path, std::string_view bytes) {
+Result<void> Context::write(const fs::path& path, std::string_view bytes) {
+  return write(path, Pieces::borrowed(bytes));
+}
+
+Result<void> ToolContext::write(const fs::path& path, const Pieces& bytes) {
   if (auto free = check_name(path); !free) return free;
   return outputs_.add(path, bytes);
 }
@@ -184,7 +188,7 @@ Result<void> ToolContext::add_depfile() {
   }
   const auto text = make_depfile(targets, read_);
   if (!text) return std::unexpected(text.error());
-  return outputs_.add(options_.depfile, *text);
+  return outputs_.add(options_.depfile, Pieces::borrowed(*text));
 }
 
 Result<void> ToolContext::finish() {
@@ -196,8 +200,8 @@ Result<void> ToolContext::finish() {
     if (auto free = check_inputs(*own); !free) return free;
   }
   Result<void> done;
-  if (!options_.report.empty()) done = outputs_.add(options_.report, to_json(report_));
-  if (done && !options_.html.empty()) done = outputs_.add(options_.html, to_html(report_));
+  if (!options_.report.empty()) done = outputs_.add(options_.report, Pieces::borrowed(to_json(report_)));
+  if (done && !options_.html.empty()) done = outputs_.add(options_.html, Pieces::borrowed(to_html(report_)));
   if (done && !options_.depfile.empty()) done = add_depfile();
   if (!done) return done;
   return outputs_.commit();

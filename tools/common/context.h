@@ -22,7 +22,8 @@ class ToolContext : public Context {
   void print(std::string_view text) override;
   void read(const std::filesystem::path& path, bool is_input) override;
   Result<void> check_output(const std::filesystem::path& path) override;
-  Result<void> write(const std::filesystem::path& path, std::string_view bytes) override;
+  using Context::write;
+  Result<void> write(const std::filesystem::path& path, const Pieces& bytes) override;
 
   Console& console() { return console_; }
   Outputs& outputs() { return outputs_; }

@@ -56,10 +56,10 @@ Result<void> Outputs::check(const fs::path& path) {
   return {};
 }
 
-Result<void> Outputs::add(const fs::path& path, std::string_view bytes) {
+Result<void> Outputs::add(const fs::path& path, const Pieces& bytes) {
   const std::lock_guard lock(mutex_);
   if (is_stdout(path)) {
-    stdout_ += bytes;
+    for (const auto& piece : bytes.list()) stdout_.append(piece.begin(), piece.end());
     return {};
   }
   if (auto added = group_.add(path, bytes); !added) return added;

@@ -24,7 +24,7 @@ class Outputs {
   // Whether a file of this name could be written, as far as that can be known beforehand.
   static Result<void> check(const std::filesystem::path& path);
 
-  Result<void> add(const std::filesystem::path& path, std::string_view bytes);
+  Result<void> add(const std::filesystem::path& path, const Pieces& bytes);
   Result<void> commit();
   void discard();  // from any thread; waits until a file that is being written is whole
 

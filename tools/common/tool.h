@@ -8,6 +8,7 @@
 //   }
 #pragma once
 
+#include "lib/formats/pieces.h"
 #include "lib/formats/report.h"
 #include "lib/formats/result.h"
 
@@ -85,7 +86,8 @@ class Context {
   virtual Result<void> check_output(const std::filesystem::path& path) = 0;
   // Writes an output: beside it, synced, renamed; all outputs of a run become visible only when run() has
   // succeeded. "-" is stdout.
-  virtual Result<void> write(const std::filesystem::path& path, std::string_view bytes) = 0;
+  virtual Result<void> write(const std::filesystem::path& path, const Pieces& bytes) = 0;
+  Result<void> write(const std::filesystem::path& path, std::string_view bytes);
 };
 
 using AddOptions = std::function<void(CLI::App&)>;

@@ -118,10 +118,11 @@ Result<void> write_stage(const Options& options, Analysis& a, const LeftOut& lef
   auto origin = provenance(options, context.options().seed);
   if (!origin) return std::unexpected(origin.error());
   a.assembled.tree.provenance = std::move(*origin);
-  const auto bytes = encode_tree(a.assembled.tree, {.encoding = options.encoding, .omit = left_out.sections});
+  const auto bytes =
+      encode_tree_pieces(a.assembled.tree, {.encoding = options.encoding, .omit = left_out.sections});
   if (!bytes) return std::unexpected(bytes.error());
   stage.items(bytes->size(), "bytes");
-  return context.write(options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  return context.write(options.output, *bytes);
 }
 
 }  // namespace
