@@ -184,6 +184,22 @@ TEST(TextureStatistics, TrianglesWithoutWidthOrWithinOneTexelAreSampledToo) {
   }
 }
 
+TEST(TextureStatistics, OfVeryManyFootprintsASampleByAreaStandsForAll) {
+  Sheet sheet;
+  Random random(3);
+  double covered = 0, area = 0;
+  for (int i = 0; i < 80'000; ++i) {  // 160 000 footprints; large ones lie on the green half more often
+    const bool large = i % 100 == 0;
+    const float u = static_cast<float>(large ? 0.3 * random.uniform() : random.uniform());
+    const float v = static_cast<float>(random.uniform()), width = 0.1f;
+    const double size = large ? 50 : 1;
+    sheet.card(u, v, u + width, v + 0.2f, size);
+    const auto green = [](double to) { return std::floor(to) * 0.5 + std::min(to - std::floor(to), 0.5); };
+    covered += size * (green(u + width) - green(u)) / width, area += size;
+  }
+  EXPECT_NEAR(sheet.measure(half_green()).alpha_coverage, covered / area, 3e-3);
+}
+
 TEST(TextureStatistics, WithoutImageTrianglesOrAreaThereIsAnAnswer) {
   Sheet sheet;
   sheet.card(0, 0, 1, 1);

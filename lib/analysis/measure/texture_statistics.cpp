@@ -89,6 +89,25 @@ class Row {
 };
 
 constexpr double k_least_lines = 8;  // a footprint
+constexpr auto k_most_footprints = static_cast<std::size_t>(k_scanlines / k_least_lines);
+
+// At most k_most_footprints that stand for all: whichever lies under the middle of each of as many equal
+// steps through the sum of the areas, with the area of its steps.
+std::vector<Footprint> sampled(std::vector<Footprint> all) {
+  if (all.size() <= k_most_footprints) return all;
+  double area = 0, passed = 0;
+  for (const Footprint& f : all) area += f.area;
+  const double step = area / static_cast<double>(k_most_footprints);
+  std::size_t met = 0;
+  std::vector<Footprint> out;
+  for (const Footprint& f : all) {
+    passed += f.area;
+    const std::size_t until = std::min(k_most_footprints, static_cast<std::size_t>(passed / step + 0.5));
+    if (until > met) out.push_back({f.corners, step * static_cast<double>(until - met)});
+    met = until;
+  }
+  return out;
+}
 
 struct Scanline {
   std::uint32_t footprint;
@@ -119,17 +138,15 @@ void scan(const Footprint& footprint, int width, int height, double most, double
   }
 }
 
-// Means over footprints: collects scanlines and, whenever there are many, walks the image once for all of
-// them.
+// Means over footprints: collects their scanlines, then walks the image once for all of them.
 class Sampler {
  public:
   Sampler(const Texels& texels, std::span<const Footprint> footprints)
       : texels_(texels), footprints_(footprints), sums_(footprints.size()), lengths_(footprints.size(), 0) {}
 
+  // The means, each times its footprint's area.
   Sums run() {
-    constexpr std::size_t k_batch = std::size_t{1} << 20;  // scanlines: 32 MB
-    const double most =
-        std::max(k_least_lines, std::floor(k_scanlines / static_cast<double>(footprints_.size())));
+    const double most = std::floor(k_scanlines / static_cast<double>(footprints_.size()));
     for (std::uint32_t f = 0; f < footprints_.size(); ++f) {
       const double turns = f * 0.6180339887498949;  // golden ratio: evenly spread phases
       const double phase = turns - std::floor(turns);
@@ -139,9 +156,8 @@ class Sampler {
              if (!(to - from > 1e-9 * texels_.width())) from = std::floor(from), to = from + 1;
              lines_.push_back({f, row, from, to});
            });
-      if (lines_.size() >= k_batch) flush();
     }
-    flush();
+    sum_up();
     Sums all;
     for (std::size_t f = 0; f < footprints_.size(); ++f)
       all += sums_[f] * (footprints_[f].area / lengths_[f]);
@@ -149,7 +165,7 @@ class Sampler {
   }
 
  private:
-  void flush() {
+  void sum_up() {
     std::stable_sort(lines_.begin(), lines_.end(),
                      [](const Scanline& a, const Scanline& b) { return a.row < b.row; });
     Row row(texels_.width());
@@ -159,7 +175,6 @@ class Sampler {
       sums_[line.footprint] += row.between(line.from, line.to);
       lengths_[line.footprint] += line.to - line.from;
     }
-    lines_.clear();
   }
 
   const Texels& texels_;
@@ -181,14 +196,17 @@ Sums mean_of_all(const Texels& texels) {
 
 void sample(const Mesh& mesh, std::span<const std::uint32_t> triangles, const Texels& texels,
             TextureStatistics& out) {
-  const Footprints found = footprints(mesh, triangles, k_footprint_tiles);
+  Footprints found = footprints(mesh, triangles, k_footprint_tiles);
   out.footprints = found.list.size();
   out.whole = found.whole;
   double area = found.whole_area;
   for (const Footprint& f : found.list) area += f.area;
   const bool flat = !(area > 0);  // nothing drawn, or nothing to weight by
   Sums sums;
-  if (!flat) sums = Sampler(texels, found.list).run();
+  if (!flat) {
+    const std::vector<Footprint> kept = sampled(std::move(found.list));
+    sums = Sampler(texels, kept).run();
+  }
   if (flat || found.whole_area > 0) {
     sums += mean_of_all(texels) * (flat ? 1 : found.whole_area);
     if (flat) area = 1;

@@ -47,8 +47,9 @@ inline constexpr double k_scanlines = 1 << 19;
 
 // One a material. Textures repeat in both directions. The alpha test compares texture alpha * Material::alpha
 // with Material::alpha_cutoff. Exact along each scanline; a footprint has at least 8 of them and at most one
-// a row of texels, and all footprints of a material together k_scanlines (or 8 each, when they are very
-// many): beyond that the rows between are left out, evenly. Linear in triangles, texels and scanlines.
+// a row of texels, and all footprints of a material together k_scanlines: beyond that the rows between are
+// left out, evenly, and of very many footprints (more than k_scanlines / 8) a sample by area stands for all.
+// Linear in triangles and texels.
 std::vector<TextureStatistics> texture_statistics(const Mesh& mesh, const ImageSource& images);
 
 // Puts the statistics into the materials, where they were sampled.
