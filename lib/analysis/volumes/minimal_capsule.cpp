@@ -7,28 +7,33 @@
 namespace copse {
 namespace {
 
-constexpr double k_thin = 1e-14;  // of the size of the points: below it, rounding decides what is thin
-
-Capsule<double> searched(std::span<const Double3> points) {
-  const SweptFit fit = search_around(Swept::capsule, points);
+Capsule<double> capsule_of(const SweptFit& fit) {
   const SweptRectangle& s = fit.rectangle;
-  const Capsule<double> c{out_of(fit.frame, {s.a0, s.b0, s.h}), out_of(fit.frame, {s.a1, s.b0, s.h}), 0};
-  return enclosing(c, points);
+  return {out_of(fit.frame, {s.a0, s.b0, s.h}), out_of(fit.frame, {s.a1, s.b0, s.h}), s.r};
 }
 
 }  // namespace
 
-BoundedFit<Capsule<double>> minimal_capsule(std::span<const Double3> points) {
-  Capsule<double> best = least_squares_capsule(points);
-  if (best.radius <= k_thin * distance(best.a, best.b)) return {best, 0};
+BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const SweptBoundOptions& options) {
+  const std::span<const Double3> points = hull.vertices;
+  if (hull.dimension < 2) {
+    const Capsule<double> segment{points.front(), points.back(), 0};
+    return {enclosing(segment, hull.boundary), 0};
+  }
+  BoundedFit<Capsule<double>> best{enclosing(least_squares_capsule(points), hull.boundary), 0};
   const auto take = [&](const Capsule<double>& c) {
-    if (interior_volume(c) < interior_volume(best)) best = c;
+    const Capsule<double> whole = enclosing(c, hull.boundary);
+    if (interior_volume(whole) < interior_volume(best.volume)) best.volume = whole;
   };
-  const Sphere ball = minimal_sphere(points);
-  take(enclosing(Capsule<double>{ball.centre, ball.centre, 0}, points));
+  const Double3 centre = minimal_sphere(points).centre;
+  take({centre, centre, 0});
   take(projected_circle_capsule(points));
-  take(searched(points));
-  return {best, 0};
+  SweptFit fit = search_around(Swept::capsule, points);
+  if (options.gap < std::numeric_limits<double>::infinity()) {
+    best.lower_bound = bound_swept(Swept::capsule, points, options, fit).lower_bound;
+  }
+  take(capsule_of(fit));
+  return best;
 }
 
 }  // namespace copse

@@ -1,18 +1,22 @@
-// minimal_capsule: the capsule of least volume.
+// minimal_capsule: the capsule of least volume, and how small any capsule must be.
 //
 // The minimal capsule is not the smallest projected circle with half spheres: with the direction given, the
-// radius trades against the length. Direction, position and radius are searched together (swept_search.h).
+// radius trades against the length. Direction, position and radius are searched together (swept_search.h),
+// and the lower bound comes from branch and bound over directions (swept_bound.h), which may send the search
+// to a place that it has missed. The same hull gives the same bits, every run.
 #pragma once
 
 #include "lib/analysis/volumes/bounded_fit.h"
+#include "lib/analysis/volumes/convex_hull.h"
+#include "lib/analysis/volumes/swept_bound.h"
 #include "lib/formats/volume.h"
-
-#include <span>
 
 namespace copse {
 
-// `points`: hull vertices in canonical order, |p| about 1 or less. Never worse than least_squares_capsule,
-// projected_circle_capsule or the minimal ball, both of which it tries. Some 3 ms for 300 points.
-BoundedFit<Capsule<double>> minimal_capsule(std::span<const Double3> points);
+// In cloud coordinates; holds hull.boundary. Never worse than least_squares_capsule or
+// projected_circle_capsule of the hull's vertices, or than the minimal ball: it tries all three. Clouds on a
+// line get their segment, with the radius that rounding leaves, and bound 0. About 4 ms for 300 vertices, and
+// 20 more for a gap of 0.02.
+BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const SweptBoundOptions& options = {});
 
 }  // namespace copse

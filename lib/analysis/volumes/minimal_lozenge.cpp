@@ -7,24 +7,47 @@
 namespace copse {
 namespace {
 
-constexpr double k_flat = 1e-14;  // of the size of the points: below it, rounding decides what is flat
+// The rectangle of least area around a planar cloud: one of its sides lies along an edge of the hull.
+Lozenge<double> rectangle_around(const ConvexHull& hull) {
+  Lozenge<double> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const HullEdge& edge : hull.edges) {
+    const Double3 u = normalized(hull.vertices[edge.b] - hull.vertices[edge.a]), v = cross(hull.axes[2], u);
+    const Frame3 frame{u, v, hull.axes[2]};
+    DoubleBox box;
+    for (const Double3& p : hull.vertices) box.grow(into(frame, p));
+    const Double3 size = box.extent();
+    if (size.x * size.y >= least) continue;
+    least = size.x * size.y;
+    best = placed({box.min.x, box.max.x, box.min.y, box.max.y, box.centre().z, 0}, frame);
+  }
+  return best;
+}
 
 }  // namespace
 
-BoundedFit<Lozenge<double>> minimal_lozenge(std::span<const Double3> points) {
-  return minimal_lozenge(points, minimal_capsule(points).volume);
+BoundedFit<Lozenge<double>> minimal_lozenge(const ConvexHull& hull, const SweptBoundOptions& options) {
+  return minimal_lozenge(hull, minimal_capsule(hull).volume, options);
 }
 
-BoundedFit<Lozenge<double>> minimal_lozenge(std::span<const Double3> points, const Capsule<double>& capsule) {
-  Lozenge<double> best = gaussian_lozenge(points);
-  if (best.radius <= k_flat * length(best.edge0)) return {best, 0};
+BoundedFit<Lozenge<double>> minimal_lozenge(const ConvexHull& hull, const Capsule<double>& capsule,
+                                            const SweptBoundOptions& options) {
+  const Lozenge<double> swept_segment{capsule.a, capsule.b - capsule.a, {}, capsule.radius};
+  if (hull.dimension < 2) return {enclosing(swept_segment, hull.boundary), 0};
+  if (hull.dimension == 2) return {enclosing(rectangle_around(hull), hull.boundary), 0};
+  const std::span<const Double3> points = hull.vertices;
+  BoundedFit<Lozenge<double>> best{enclosing(gaussian_lozenge(points), hull.boundary), 0};
   const auto take = [&](const Lozenge<double>& l) {
-    if (interior_volume(l) < interior_volume(best)) best = l;
+    const Lozenge<double> whole = enclosing(l, hull.boundary);
+    if (interior_volume(whole) < interior_volume(best.volume)) best.volume = whole;
   };
-  take(enclosing(Lozenge<double>{capsule.a, capsule.b - capsule.a, {}, 0}, points));
-  const SweptFit fit = search_around(Swept::lozenge, points);
-  take(enclosing(placed(fit.rectangle, fit.frame), points));
-  return {best, 0};
+  SweptFit fit = search_around(Swept::lozenge, points);
+  if (options.gap < std::numeric_limits<double>::infinity()) {
+    best.lower_bound = bound_swept(Swept::lozenge, points, options, fit).lower_bound;
+  }
+  take(placed(fit.rectangle, fit.frame));
+  take(swept_segment);
+  return best;
 }
 
 }  // namespace copse

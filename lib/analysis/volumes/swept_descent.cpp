@@ -7,6 +7,7 @@ namespace {
 
 constexpr double k_room = 1.05;        // a start is this much larger than it must be
 constexpr std::size_t k_added = 6;     // points a round
+constexpr double k_first_gap = 1e-2;   // no exact optimum over points that are not yet the right ones
 constexpr double k_sticks_out = 1e-9;  // of the radius: less is left to the final growth
 
 // The points that stick out most, none near another in the list of offsets: the worst of each octant of the
@@ -39,12 +40,6 @@ std::vector<Double3> chosen(std::span<const Double3> points, const std::vector<s
   std::vector<Double3> out;
   for (const std::uint32_t i : indices) out.push_back(points[i]);
   return out;
-}
-
-void span_line(std::span<const Double3> points, SweptFit& fit) {
-  DoubleBox box;
-  for (const Double3& p : points) box.grow(into(fit.frame, p));
-  fit.rectangle.a0 = box.min.x, fit.rectangle.a1 = box.max.x;
 }
 
 }  // namespace
@@ -108,20 +103,21 @@ SweptFit descend_around(Swept kind, std::span<const Double3> points, const Frame
   SweptFit fit{orthonormal(start), {}};
   std::vector<std::uint32_t> working = extreme_points(points, fit.frame);
   fit.rectangle = roomy_rectangle(kind, points, fit.frame);
-  BarrierGaps gaps{1, options.gap};
-  for (int round = 0;; ++round) {
+  BarrierGaps gaps{1, std::max(options.gap, k_first_gap)};
+  for (int round = 1;; ++round) {
     descend(kind, chosen(points, working), fit, gaps);
-    if (kind == Swept::line) span_line(points, fit);
     const double reach = reach_of(points, fit), r = fit.rectangle.r;
-    const bool last = reach <= r * (1 + k_sticks_out) || round + 1 >= options.rounds;
-    if (last) {
+    const bool all = reach <= r * (1 + k_sticks_out);
+    if ((all && gaps.last <= options.gap) || round >= options.rounds) {
       fit.rectangle.r = reach;
       return fit;
     }
-    add_worst(points, fit, working, r);
-    const double excess = reach / r - 1;
-    fit.rectangle.r = reach + std::max(0.02 * r, 0.5 * (reach - r));
-    gaps.first = std::clamp(excess, 1e-3, 0.3);
+    const double excess = std::max(0.0, reach / r - 1);
+    if (!all) add_worst(points, fit, working, r);
+    // Once nothing sticks out by much it pays to be exact.
+    gaps.first = std::clamp(excess, 10 * gaps.last, 0.3);
+    gaps.last = std::max(options.gap, std::min(gaps.last, excess * 0.01));
+    fit.rectangle.r = reach + std::max(0.5 * (reach - r), 0.3 * gaps.first * r);
   }
 }
 

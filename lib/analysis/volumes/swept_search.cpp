@@ -9,6 +9,8 @@ namespace {
 
 constexpr double k_rough_gap = 0.05;
 constexpr int k_rough_rounds = 2;
+constexpr std::size_t k_finalists = 6;           // of 13
+constexpr std::size_t k_lozenge_finalists = 14;  // of 27: the rough order is no more than a hint
 
 Frame3 about(const Frame3& base, const Double3& direction) {
   const Double3 u = normalized(direction);
@@ -53,7 +55,7 @@ double cost(Swept kind, const SweptFit& fit) {
 
 }  // namespace
 
-SweptFit search_around(Swept kind, std::span<const Double3> points, const SearchOptions& options) {
+SweptFit search_around(Swept kind, std::span<const Double3> points) {
   const Frame3 base = principal_frame(points).axes;
   std::vector<std::pair<double, Frame3>> scouts;
   for (const Frame3& start : kind == Swept::lozenge ? frames(base) : directions(base)) {
@@ -62,9 +64,10 @@ SweptFit search_around(Swept kind, std::span<const Double3> points, const Search
   }
   std::stable_sort(scouts.begin(), scouts.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
+  const std::size_t finalists = kind == Swept::lozenge ? k_lozenge_finalists : k_finalists;
   SweptFit best;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < scouts.size() && i < static_cast<std::size_t>(options.finalists); ++i) {
+  for (std::size_t i = 0; i < scouts.size() && i < finalists; ++i) {
     const SweptFit fit = descend_around(kind, points, scouts[i].second);
     if (cost(kind, fit) < least) least = cost(kind, fit), best = fit;
   }

@@ -1,7 +1,7 @@
 // swept_search: the least capsule, lozenge or line around points that descents from many frames find.
 //
 // Every frame of a fixed set, laid out from the principal frame, is tried with a rough descent over a few
-// points; the best of them go on to the end over all points. Deterministic. What is found is the global
+// points; the best half of them go on to the end over all points. Deterministic. What is found is the global
 // optimum nearly always (docs/volumes.md has figures); swept_bound.h proves how far from it it can be.
 #pragma once
 
@@ -9,11 +9,7 @@
 
 namespace copse {
 
-struct SearchOptions {
-  int finalists = 4;
-};
-
 // `points`: hull vertices in canonical order, at least one, |p| about 1 or less.
-SweptFit search_around(Swept kind, std::span<const Double3> points, const SearchOptions& options = {});
+SweptFit search_around(Swept kind, std::span<const Double3> points);
 
 }  // namespace copse
