@@ -75,11 +75,8 @@ struct Farthest {
   double distance = -1;
 };
 
-// --- points: squares are compared, and nothing is copied -------------------------------------------------
+// --- points: squares are compared ------------------------------------------------------------------------
 
-Sphere as_ball(const Double3& p, const Frame& frame) {
-  return {frame.in(p), 0};
-}
 Farthest farthest_from(const Double3& centre, std::span<const Double3> points, const Frame& frame) {
   Farthest found;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -124,8 +121,7 @@ Frame frame_of(std::span<const Member> members) {
   return frame;
 }
 
-template <class Member>
-Sphere minimal_sphere_of(std::span<const Member> members) {
+Sphere minimal_sphere_of(std::span<const Sphere> members) {
   if (members.empty()) return {};
   const Frame frame = frame_of(members);
   SupportBall ball;
@@ -141,6 +137,96 @@ Sphere minimal_sphere_of(std::span<const Member> members) {
   const Frame about{sphere.centre, frame.scale};
   sphere.radius = farthest_from({}, members, about).distance / frame.scale;
   return sphere;
+}
+
+// The loop over points. With c and r the support's ball and R the farthest point's distance from c, the
+// minimal ball's centre is within sqrt(R^2 - r^2) of c, so points nearer than r less that are inside it and
+// are left out of all later passes.
+template <class InFrame>
+class PointLoop {
+ public:
+  PointLoop(std::span<const Double3> points, const InFrame& frame) : points_(points), frame_(frame) {}
+
+  Sphere run() {
+    double farthest = pass({}, -1);
+    ball.include({at_, 0});
+    Double3 centre;
+    for (;;) {
+      // How far any point can be from the new centre bounds R before the pass that finds it.
+      const double reach = farthest + distance(centre, ball.centre());
+      const double shift = std::sqrt(std::max(0.0, reach * reach - ball.radius() * ball.radius()));
+      centre = ball.centre();
+      farthest = pass(centre, ball.radius() - shift * (1 + 1e-9) - 1e-9 * reach);
+      if (!loop_.should_include(ball, farthest)) break;
+      ball.include({at_, 0});
+    }
+    return loop_.best();
+  }
+
+  SupportBall ball;
+
+ private:
+  // The distance of the farthest point, which becomes at_; of equals the first in lexicographic order, so
+  // that nothing depends on the order of the points. Keeps what is farther than `inside` for the next pass.
+  double pass(const Double3& centre, double inside) {
+    const std::size_t limit = count() / 4;
+    const bool collect = inside > 0 && count() > 64;
+    const double threshold = inside * inside;
+    double most = -1;
+    found_.clear();
+    const auto visit = [&](const Double3& q) {
+      const double d = squared(q - centre);
+      if (d >= most && (d > most || less(q, at_))) most = d, at_ = q;
+      if (collect && d > threshold && found_.size() <= limit) found_.push_back(q);
+    };
+    if (narrowed_) {
+      for (const Double3& q : kept_) visit(q);
+    } else {
+      for (const Double3& p : points_) visit(frame_.in(p));
+    }
+    if (collect && found_.size() <= limit) kept_.swap(found_), narrowed_ = true;
+    return std::sqrt(std::max(0.0, most));
+  }
+  std::size_t count() const { return narrowed_ ? kept_.size() : points_.size(); }
+  static bool less(const Double3& a, const Double3& b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+  }
+
+  std::span<const Double3> points_;
+  InFrame frame_;
+  PivotLoop loop_;
+  std::vector<Double3> kept_, found_;
+  bool narrowed_ = false;
+  Double3 at_;
+};
+
+struct NoFrame {
+  Double3 in(const Double3& p) const { return p; }
+};
+
+template <class InFrame>
+MinimalSphere minimal_in(std::span<const Double3> points, const InFrame& in, const Frame& frame) {
+  PointLoop<InFrame> loop(points, in);
+  MinimalSphere found;
+  found.sphere.centre = frame.out(loop.run().centre);
+  found.lower_radius = loop.ball.radius() / frame.scale;
+  // From the centre as it was rounded, not as it was found.
+  found.sphere.radius = farthest_from({}, points, {found.sphere.centre, frame.scale}).distance / frame.scale;
+  const auto support = loop.ball.support();
+  for (std::uint32_t i = 0; i < points.size() && found.support.size() < support.size(); ++i) {
+    const Double3 q = in.in(points[i]);
+    const bool first = std::none_of(found.support.begin(), found.support.end(),
+                                    [&](std::uint32_t k) { return in.in(points[k]) == q; });
+    for (const Sphere& s : support) {
+      if (s.centre == q && first) found.support.push_back(i);
+    }
+  }
+  return found;
+}
+
+// Points that are of a size of about 1 already, as a cloud's are.
+bool needs_no_frame(const Frame& frame) {
+  return frame.scale >= 0x1p-2 && frame.scale <= 0x1p2 && length(frame.origin) <= 4;
 }
 
 }  // namespace
@@ -185,8 +271,15 @@ bool PivotLoop::should_include(const SupportBall& ball, double farthest) {
   return idle_ < k_idle_steps;
 }
 
+MinimalSphere minimal_sphere_and_support(std::span<const Double3> points) {
+  if (points.empty()) return {};
+  const Frame frame = frame_of(points);
+  if (needs_no_frame(frame)) return minimal_in(points, NoFrame{}, Frame{});
+  return minimal_in(points, frame, frame);
+}
+
 Sphere minimal_sphere(std::span<const Double3> points) {
-  return minimal_sphere_of(points);
+  return minimal_sphere_and_support(points).sphere;
 }
 
 Sphere minimal_sphere(std::span<const Sphere> balls) {

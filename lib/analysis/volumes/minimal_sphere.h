@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace copse {
 
@@ -52,10 +53,18 @@ class PivotLoop {
   int idle_ = 0;
 };
 
+struct MinimalSphere {
+  Sphere sphere;
+  double lower_radius = 0;  // of the support's ball: no enclosing sphere is smaller, but for rounding
+  std::vector<std::uint32_t> support;  // at most 4 of the points, ascending, which this ball touches
+};
+
 // Finite points; no points give radius 0 at the origin. The ball encloses every point but for the rounding of
 // the distance itself; its radius is within 1e-12 of the smallest one's, or within the rounding of the
 // centre's coordinates where that is coarser (points far from the origin: pass them relative to something
-// near). Expected O(n): some ten passes, each over all points.
+// near). Expected O(n): some five passes over all points and a few over the outermost. Not one bit depends on
+// the order of the points.
+MinimalSphere minimal_sphere_and_support(std::span<const Double3> points);
 Sphere minimal_sphere(std::span<const Double3> points);
 
 // The same of balls (radii >= 0).

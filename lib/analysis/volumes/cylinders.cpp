@@ -1,0 +1,300 @@
+#include "lib/analysis/volumes/cylinders.h"
+
+#include "lib/analysis/volumes/frame.h"
+#include "lib/analysis/volumes/minimal_sphere.h"
+#include "lib/analysis/volumes/principal_axes.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <queue>
+#include <vector>
+
+namespace copse {
+namespace {
+
+constexpr int k_directions = 48;   // of the fixed set of starts
+constexpr std::size_t k_kept = 3;  // of them are descended from
+constexpr int k_rounds = 100;      // of a descent; some 40 do
+constexpr double k_rounding = 1e-12;
+
+double volume_of(double radius, double height) {
+  return std::numbers::pi * radius * radius * height;
+}
+
+// What a direction leads to: the circle round the points projected across it, and the extent along it.
+struct Tube {
+  Double3 direction;
+  Double3 centre;  // of the circle, across the direction
+  double radius = 0, low = 0, high = 0;
+  SupportBall ball;           // in the coordinates of the plane
+  Double3 first, last;        // points at the ends
+  double support_extent = 0;  // along the direction, of the points on the circle
+  double volume() const { return volume_of(radius, high - low); }
+};
+
+Tube tube_along(std::span<const Double3> points, const Double3& direction) {
+  Tube t;
+  t.direction = direction;
+  const Double3 u = any_normal(direction), v = cross(direction, u);
+  t.low = std::numeric_limits<double>::infinity(), t.high = -t.low;
+  std::vector<Double3> flat;  // with the height along the direction as third coordinate, kept for the ends
+  flat.reserve(points.size());
+  for (const Double3& p : points) {
+    const double h = dot(p, direction);
+    if (h < t.low) t.low = h, t.first = p;
+    if (h > t.high) t.high = h, t.last = p;
+    flat.push_back({dot(p, u), dot(p, v), h});
+  }
+  const auto farthest_from = [&](const Double3& c) {
+    std::size_t far = 0;
+    double most = -1;
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+      const double x = flat[i].x - c.x, y = flat[i].y - c.y, d = x * x + y * y;
+      if (d > most) most = d, far = i;
+    }
+    return std::pair(far, std::sqrt(most));
+  };
+  std::vector<Double3> touched;
+  const auto include = [&](std::size_t i) {
+    t.ball.include({{flat[i].x, flat[i].y, 0}, 0});
+    touched.push_back(flat[i]);
+  };
+  include(farthest_from({flat[0].x, flat[0].y, 0}).first);
+  PivotLoop loop;
+  for (;;) {
+    const auto [far, reach] = farthest_from(t.ball.centre());
+    if (!loop.should_include(t.ball, reach)) break;
+    include(far);
+  }
+  t.radius = loop.best().radius;
+  t.centre = u * loop.best().centre.x + v * loop.best().centre.y;
+  double low = t.high, high = t.low;
+  for (const Sphere& s : t.ball.support()) {
+    for (const Double3& q : touched) {
+      if (q.x == s.centre.x && q.y == s.centre.y) low = std::min(low, q.z), high = std::max(high, q.z);
+    }
+  }
+  t.support_extent = std::max(0.0, high - low);
+  return t;
+}
+
+// The ends, rounded, tell the axis' direction to 2^-53 over the length between them, and points at a distance
+// of about 1 across it leave by as much along it. So the length is at least about the root of that, and the
+// ends are moved out by what the direction can be wrong.
+constexpr double k_least_length = 0x1p-25;
+constexpr double k_end_error = 0x1p-50;
+
+Cylinder<double> cylinder_of(const Tube& t) {
+  const double length = std::max(t.high - t.low, k_least_length);
+  const double more = (length - (t.high - t.low)) / 2 + k_end_error * t.radius / length;
+  return {t.centre + t.direction * (t.low - more), t.centre + t.direction * (t.high + more), t.radius};
+}
+
+// --- the search -------------------------------------------------------------------------------------------
+
+std::vector<Double3> starts_for(const ConvexHull& hull) {
+  std::vector<Double3> starts(k_world_axes.begin(), k_world_axes.end());
+  for (const Axes& axes :
+       {hull.axes, principal_axes(hull.vertices).axes, principal_axes(hull.vertices, hull.faces).axes}) {
+    starts.insert(starts.end(), axes.begin(), axes.end());
+  }
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  for (int i = 0; i < k_directions; ++i) {
+    const double z = (i + 0.5) / k_directions, r = std::sqrt(1 - z * z);
+    starts.push_back({r * std::cos(golden * i), r * std::sin(golden * i), z});
+  }
+  return starts;
+}
+
+// Steps in the tangent plane, halved when none of them gains (pattern search): the volume has creases, along
+// which the directions of the last gain are tried first.
+Tube descend(std::span<const Double3> points, Tube best, double step, double smallest) {
+  Double3 last;
+  for (int round = 0; round < k_rounds && step > smallest; ++round) {
+    const Double3 u = any_normal(best.direction), v = cross(best.direction, u);
+    const Double3 before = best.direction;
+    const Double3 along = last - best.direction * dot(last, best.direction);
+    const double diagonal = std::numbers::sqrt2 / 2;
+    for (const Double3& d : {length(along) > 0 ? normalized(along) : u, u, v, -u, -v, (u + v) * diagonal,
+                             (u - v) * diagonal, (v - u) * diagonal, -(u + v) * diagonal}) {
+      const Tube t = tube_along(points, normalized(best.direction + d * step));
+      if (t.volume() < best.volume() * (1 - k_rounding)) {
+        last = t.direction - before;
+        best = t;
+        break;
+      }
+    }
+    step = best.direction == before ? step / 2 : step * 1.5;
+  }
+  return best;
+}
+
+// A turn by the angle about doubles the volume at most.
+double first_step(const Tube& t) {
+  const double r = 2 * t.radius, h = t.high - t.low;
+  return std::clamp(0.3 * std::min(r, h) / std::max({r, h, 1e-300}), 1e-13, 0.1);
+}
+
+Tube search(const ConvexHull& hull) {
+  std::vector<Tube> tubes;
+  for (const Double3& d : starts_for(hull)) tubes.push_back(tube_along(hull.vertices, d));
+  std::stable_sort(tubes.begin(), tubes.end(),
+                   [](const Tube& a, const Tube& b) { return a.volume() < b.volume(); });
+  Tube best = tubes[0];
+  std::vector<Double3> ends;
+  for (std::size_t i = 0; i < tubes.size() && ends.size() < k_kept; ++i) {
+    const auto near = [&](const Double3& e) { return std::abs(dot(e, tubes[i].direction)) > 0.98; };
+    if (std::any_of(ends.begin(), ends.end(), near)) continue;
+    ends.push_back(tubes[i].direction);
+    const Tube end = descend(hull.vertices, tubes[i], first_step(tubes[i]), 1e-3 * first_step(tubes[i]));
+    if (end.volume() < best.volume()) best = end;
+  }
+  return descend(hull.vertices, best, first_step(best) * 0.02, 1e-7 * first_step(best));
+}
+
+// --- the bound --------------------------------------------------------------------------------------------
+
+// A rectangle of the gnomonic map about one of three axes: its direction is axes[0] + x axes[1] + y axes[2].
+struct Cell {
+  int side = 0;
+  double x = 0, y = 0, half_x = 1, half_y = 1;
+  double bound = 0;
+  std::uint64_t order = 0;
+};
+struct Later {
+  bool operator()(const Cell& a, const Cell& b) const {
+    return a.bound != b.bound ? a.bound > b.bound : a.order > b.order;
+  }
+};
+
+class CylinderBounder {
+ public:
+  CylinderBounder(const ConvexHull& hull, const Tube& best, const MinimalCylinderOptions& options)
+      : points_(hull.vertices), best_(best), options_(options) {
+    const Axes base =
+        rotated(axes_along(best.direction, any_normal(best.direction)), Double3{0, 0.0137, -0.0231});
+    for (int i = 0; i < 3; ++i) sides_[i] = {base[i], base[(i + 1) % 3], base[(i + 2) % 3]};
+  }
+
+  double run() {
+    const auto start = std::chrono::steady_clock::now();
+    const auto late = [&] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >
+             options_.seconds;
+    };
+    for (int side = 0; side < 3; ++side) make({side, 0, 0, 1, 1, 0, 0}, 0);
+    while (!open_.empty() && open_.top().bound < target() && made_ < options_.max_cells) {
+      if (made_ % 16 == 0 && late()) break;
+      const Cell cell = open_.top();
+      open_.pop();
+      const bool wide = cell.half_x >= cell.half_y;
+      for (const int sign : {-1, 1}) {
+        Cell half = cell;
+        (wide ? half.half_x : half.half_y) /= 2;
+        (wide ? half.x : half.y) += sign * (wide ? half.half_x : half.half_y);
+        make(half, cell.bound);
+      }
+    }
+    const double open = open_.empty() ? closed_ : std::min(closed_, open_.top().bound);
+    return std::min(open, best_.volume());
+  }
+  const Tube& best() const { return best_; }
+
+ private:
+  double target() const { return best_.volume() / (1 + options_.gap); }
+
+  Double3 direction(const Cell& c, double x, double y) const {
+    const Axes& s = sides_[c.side];
+    return normalized(s[0] + s[1] * x + s[2] * y);
+  }
+
+  void make(Cell cell, double above) {
+    const Double3 middle = direction(cell, cell.x, cell.y);
+    double sine = 0;
+    for (int k = 0; k < 4; ++k) {
+      const double x = cell.x + (k & 1 ? cell.half_x : -cell.half_x),
+                   y = cell.y + (k & 2 ? cell.half_y : -cell.half_y);
+      sine = std::max(sine, length(cross(middle, direction(cell, x, y))));
+    }
+    sine = sine * (1 + 1e-12) + 1e-15;
+    const Tube t = tube_along(points_, middle);
+    if (t.volume() < best_.volume() * (1 - k_rounding)) {
+      const Tube low = descend(points_, t, first_step(t) * 0.1, 1e-6 * first_step(t));
+      if (low.volume() < best_.volume()) best_ = low;
+    }
+    cell.order = made_++;
+    cell.bound = std::max(above, bound_of(t, sine));
+    if (cell.bound >= target()) {
+      closed_ = std::min(closed_, cell.bound);
+    } else {
+      open_.push(cell);
+    }
+  }
+
+  static double bound_of(const Tube& t, double sine) {
+    if (sine >= 1) return 0;
+    constexpr double k_absolute = 1e-14;
+    const double cosine = std::sqrt(1 - sine * sine);
+    const Double3 e = t.last - t.first;
+    const double height = cosine * (t.high - t.low) - sine * length(cross(e, t.direction)) - k_absolute;
+    const double radius = cosine * t.ball.radius() - sine * t.support_extent / 2 - k_absolute;
+    return height > 0 && radius > 0 ? volume_of(radius, height) * (1 - k_rounding) : 0;
+  }
+
+  std::span<const Double3> points_;
+  Tube best_;
+  const MinimalCylinderOptions& options_;
+  std::array<Axes, 3> sides_;
+  std::priority_queue<Cell, std::vector<Cell>, Later> open_;
+  double closed_ = std::numeric_limits<double>::infinity();
+  std::uint64_t made_ = 0;
+};
+
+// A flat cloud fits a cylinder of no volume: a disc across its plane, or a segment.
+Cylinder<double> flat_cylinder(const ConvexHull& hull) {
+  return cylinder_along(hull.boundary, hull.dimension == 2 ? hull.axes[2] : hull.axes[0]);
+}
+
+}  // namespace
+
+Cylinder<double> cylinder_along(std::span<const Double3> points, const Double3& direction) {
+  return cylinder_of(tube_along(points, direction));
+}
+
+Cylinder<double> line_fit_cylinder(const PointCloud& cloud) {
+  const PrincipalAxes spread = principal_axes(cloud.points);
+  const Double3& u = spread.axes[0];
+  Tube t;
+  t.direction = u, t.centre = spread.mean;
+  t.low = std::numeric_limits<double>::infinity(), t.high = -t.low;
+  for (const Double3& p : cloud.points) {
+    const Double3 d = p - spread.mean;
+    const double h = dot(d, u);
+    const Double3 away = d - u * h;
+    t.low = std::min(t.low, h), t.high = std::max(t.high, h);
+    t.radius = std::max(t.radius, dot(away, away));
+  }
+  t.radius = std::sqrt(t.radius);
+  return cylinder_of(t);
+}
+
+Cylinder<double> recentred_cylinder(const PointCloud& cloud, const ConvexHull& hull) {
+  return cylinder_along(hull.boundary, principal_axes(cloud.points).axes[0]);
+}
+
+BoundedFit<Cylinder<double>> minimal_cylinder(const ConvexHull& hull, const MinimalCylinderOptions& options) {
+  if (hull.dimension < 3) return {flat_cylinder(hull), 0};
+  Tube best = search(hull);
+  double bound = hull.volume * (1 - k_rounding);
+  if (std::isfinite(options.gap)) {
+    CylinderBounder bounder(hull, best, options);
+    bound = std::max(bound, bounder.run());
+    best = bounder.best();
+  }
+  const Cylinder<double> cylinder = cylinder_along(hull.boundary, best.direction);
+  return {cylinder, std::min(bound, best.volume())};
+}
+
+}  // namespace copse
