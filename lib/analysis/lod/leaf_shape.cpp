@@ -61,6 +61,7 @@ class Chooser {
   Chooser(const Patch& patch, const CrownField* field, const Double3& offset, const ShapeOptions& options)
       : patch_(patch),
         field_(field),
+        near_(field),
         offset_(offset),
         options_(options),
         centre_(patch.centre()),
@@ -70,11 +71,12 @@ class Chooser {
   LeafShape choose() {
     const Eigen3 spread = eigen(spread_), facing = eigen(patch_.facing);
     size_ = std::sqrt(options_.largest > 0 ? std::min(patch_.area, options_.largest) : patch_.area);
+    if (field_ != nullptr && size_ < field_->cell()) near_ = nullptr;
     if (field_ != nullptr) per_reach_ = 1 / (k_reach * k_reach * field_->cross_section());
     seen_ = patch_.opaque > 0 ? patch_.visible / patch_.opaque : 1;
     try_plane(facing.vectors[0]);
     try_plane(spread.vectors[2]);
-    if (field_ != nullptr && options_.search && best_.cost > k_good && size_ > 2 * field_->cell()) {
+    if (near_ != nullptr && options_.search && best_.cost > k_good && size_ > 2 * field_->cell()) {
       try_plane(facing.vectors[1]);
       try_plane(spread.vectors[0]), try_plane(spread.vectors[1]);
       search();
@@ -157,7 +159,7 @@ class Chooser {
     const double faces = patch_.facing.along(c.frame.n) / patch_.area;
     // Inside, where no one sees it, it may lie anywhere and any way.
     double cost = seen_ * (options_.moving * dot(moved, moved) / area + options_.turning * (1 - faces));
-    if (field_ == nullptr) return cost;
+    if (near_ == nullptr) return cost;
     // Corners and the middles of edges reach farthest; the points between them and the centre stand for the
     // rest.
     double empty = 0, open = 0;
@@ -166,8 +168,8 @@ class Chooser {
       const Point &p = cut_[i], &q = cut_[(i + 1) % cut_.size()];
       const Point m{(p.x + q.x) / 2, (p.y + q.y) / 2};
       const Double3 corner = at(c, p) + offset_, middle = at(c, m) + offset_;
-      const auto outer = field_->at(corner), edge = field_->at(middle);
-      const auto inner = field_->at(at(c, {0.5 * p.x, 0.5 * p.y}) + offset_);
+      const auto outer = near_->at(corner), edge = near_->at(middle);
+      const auto inner = near_->at(at(c, {0.5 * p.x, 0.5 * p.y}) + offset_);
       empty += double(outer.emptiness) * outer.emptiness + double(edge.emptiness) * edge.emptiness;
       open += outer.openness + 2 * edge.openness + 3 * inner.openness;
     }
@@ -212,6 +214,7 @@ class Chooser {
 
   const Patch& patch_;
   const CrownField* field_;
+  const CrownField* near_;  // null for a leaf within one cell: the field cannot tell its candidates apart
   Double3 offset_;
   ShapeOptions options_;
   Double3 centre_;

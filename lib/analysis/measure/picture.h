@@ -1,8 +1,7 @@
 // picture: what a viewer sees of a mesh, with the alpha of its textures: colour and coverage a pixel.
 #pragma once
 
-#include "lib/analysis/measure/drawn_mesh.h"
-#include "lib/analysis/measure/raster.h"
+#include "lib/analysis/measure/alpha_raster.h"
 
 #include <span>
 #include <vector>
@@ -13,12 +12,6 @@ struct Picture {
   int width = 0, height = 0;
   std::vector<Float3> colour;   // linear, over a white ground; row 0 is the top
   std::vector<float> coverage;  // share of the pixel that something covers, 0 to 1
-};
-
-// How things look: their materials and alpha masks, both one a material (masks may be empty).
-struct Looks {
-  std::span<const Material> materials;
-  std::span<const AlphaMask> masks;
 };
 
 // Each pixel is the mean of samples x samples points, each of which sees the nearest triangle that its alpha

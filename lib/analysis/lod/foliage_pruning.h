@@ -1,0 +1,43 @@
+// foliage_pruning: fewer and larger leaves, cell by cell, the least visible cells first.
+//
+// Gumbau, Chover, Remolar, "Interactive simplification of vegetation on graphics hardware" (digest 001),
+// after Cook and Halstead's stochastic pruning: a cell shows the first m leaves of a random order; what is
+// left is enlarged so that its area stays (errata P4, P6: lengths grow by the root of the exact ratio of
+// areas of this cell).
+#pragma once
+
+#include "lib/analysis/measure/alpha_raster.h"
+#include "lib/formats/foliage_cells.h"
+#include "lib/formats/spectrum.h"
+#include "lib/formats/tree.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace copse {
+
+struct PruningOptions {
+  std::uint32_t cells = 256;  // at most
+  int views = 42;             // at least
+  int resolution = 256;       // pixels of a view's side
+  std::uint64_t seed = 0;
+  double near = 0, far = 0;  // metres; 0, 0: 2 and 40 times the crown's radius
+  double least = 0.05;
+  double largest_enlargement = 16;
+};
+
+// Cells, order, views, visibility and parameters. Inside a cell the order is stratified: the leaves in the
+// order of a space-filling curve through the cell's box, taken by the scrambled bit reversal of their ranks,
+// so that every prefix is spread evenly over the cell; its scramble is a random stream of the cell's own.
+// Deterministic.
+FoliageCells prune_foliage(const Tree& tree, const Looks& looks, const PruningOptions& options);
+
+// How many leaves each cell shows at a fraction (hazard N13): ceil, at least 1.
+std::uint32_t shown_leaves(std::uint32_t count, double fraction);
+
+// The same as a spectrum, all cells alike (001's uniform mode): at each step a cell shows the fraction of its
+// leaves that is 2^(1/4) smaller, each enlarged about its centre so that the cell keeps its area, by no more
+// than `largest_enlargement` and not beyond its cell's longest half extent.
+Spectrum pruned_spectrum(const Tree& tree, const FoliageCells& foliage);
+
+}  // namespace copse
