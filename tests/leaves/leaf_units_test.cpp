@@ -60,6 +60,15 @@ TEST(LeafUnits, CardsOfOtherSizesOrShapesInOnePlaceStayApart) {
   EXPECT_EQ(units(b.mesh).count, 12u);
 }
 
+TEST(LeafUnits, CardsThatCrossMayDifferInWidth) {
+  Builder b;
+  for (int i = 0; i < 6; ++i) {
+    b.card({i * 9.0, 0, 0}, {0.2, 0, 0}, {0, 1, 0});
+    b.card({i * 9.0, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  }
+  EXPECT_EQ(units(b.mesh).count, 6u);
+}
+
 TEST(LeafUnits, AFewThatMeetAmongManyThatDoNotStayApart) {
   Builder b;
   for (int i = 0; i < 9; ++i) b.card({i * 3.0, 0, 0}, {1, 0, 0}, {0, 1, 0});

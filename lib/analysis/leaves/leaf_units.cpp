@@ -12,12 +12,14 @@ namespace copse {
 namespace {
 
 constexpr double k_same_centre = 1e-3;  // of the square root of the median leaf's area
-constexpr double k_same_area = 0.9;     // smaller over larger
+// Smaller reach from the centre over larger. The cards of a cross are as long, and may differ in width.
+constexpr double k_like_reach = 0.6;
 
 struct Cards {
   std::vector<std::uint32_t> piece;  // the pieces that are leaves, ascending
   std::vector<Double3> centre;       // of their boxes
   std::vector<double> area;
+  std::vector<double> reach;  // from the centre to the farthest corner
 };
 
 double area_of(const Mesh& mesh, const Triangle& t) {
@@ -39,6 +41,13 @@ Cards read_cards(const Mesh& mesh, const PieceTriangles& pieces, std::span<const
     cards.piece.push_back(p);
     cards.centre.push_back(box.min * 0.5 + box.max * 0.5);
     cards.area.push_back(area);
+    double reach = 0;
+    for (const std::uint32_t t : pieces.of(p)) {
+      for (const std::uint32_t v : mesh.triangles[t]) {
+        reach = std::max(reach, distance(mesh.positions[v], cards.centre.back()));
+      }
+    }
+    cards.reach.push_back(reach);
   }
   return cards;
 }
@@ -119,9 +128,9 @@ std::vector<std::uint32_t> partners(const PieceTriangles& pieces, const Cards& c
   std::vector<std::uint32_t> partner = weld_few(cards.centre, tolerance(cards.area));
   for (std::uint32_t c = 0; c < partner.size(); ++c) {
     const std::uint32_t first = partner[c];
-    const auto [small, large] = std::minmax(cards.area[c], cards.area[first]);
+    const auto [small, large] = std::minmax(cards.reach[c], cards.reach[first]);
     const bool alike = pieces.of(cards.piece[c]).size() == pieces.of(cards.piece[first]).size();
-    if (!alike || small < k_same_area * large) partner[c] = c;
+    if (!alike || small < k_like_reach * large) partner[c] = c;
   }
   return partner;
 }
