@@ -49,6 +49,26 @@ TEST(PieceScan, PlacesStemsBlobsAndWideSheets) {
   EXPECT_EQ(s.placed()[1].piece, 1u);
 }
 
+TEST(PieceScan, ABladeIsAStripWhateverTrianglesAreThereTwiceOrWithoutArea) {
+  shapes::Builder b;
+  std::vector<std::uint32_t> left, right;
+  for (int i = 0; i < 6; ++i) left.push_back(b.point({0, 0.2 * i - 0.1, 0}));
+  for (int i = 0; i < 6; ++i) right.push_back(b.point({0.1, 0.2 * i - 0.1, 0.02 * i * i}));
+  for (std::size_t i = 0; i < 5; ++i) {
+    b.triangle(left[i], right[i], right[i + 1]), b.triangle(left[i], right[i + 1], left[i + 1]);
+  }
+  for (int damage = 0; damage < 3; ++damage) {
+    shapes::Builder d = b;
+    if (damage == 1) d.triangle(right[0], left[0], right[1]);
+    if (damage == 2)
+      d.triangle(left[2], left[2], left[3]), d.triangle(right[3], d.point({0.1, 0.4, 0.13}), right[2]);
+    const PieceScan s = scan(d.mesh, {0}, std::vector<PartVerdict>(1));
+    EXPECT_EQ(s.pieces().count, 1u) << damage;
+    EXPECT_TRUE(s.fact(0).strip) << damage;
+    EXPECT_TRUE(s.fact(0).rooted) << damage;
+  }
+}
+
 TEST(PieceScan, ASheetWhoseWholeBorderLiesOnOthersIsACap) {
   shapes::Builder b;
   b.triangle(b.point({0, 0, 0}), b.point({1, 0, 0}), b.point({0, 1, 0}));
