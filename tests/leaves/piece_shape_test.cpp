@@ -81,6 +81,16 @@ TEST(PieceShape, AShortOpenTubeIsNoSheetAndAConeOfTheSameBorderIs) {
   EXPECT_EQ(shape(disc.mesh).kind, ShapeKind::sheet);
 }
 
+TEST(PieceShape, ATreeInOneSurfaceIsAStemHoweverManyOpenTipsItHas) {
+  shapes::Builder b;
+  for (int i = 0; i < 100; ++i) {
+    const double y = i;
+    b.tube({{0, y, 0}, {0, y + 1, 0}}, 0.5, 6);
+    b.tube({{0, y, 0}, {4, y + 2, 0}, {0, y + 8, 0}}, 0.5, 6);  // grows from the same ring
+  }
+  EXPECT_EQ(shape(b.mesh).kind, ShapeKind::stem);
+}
+
 TEST(PieceShape, ABallIsABlobAndAFlatOneAPlate) {
   Builder ball, plate;
   ball.ball({0, 0, 0}, 1);

@@ -1,5 +1,7 @@
 #include "lib/analysis/leaves/piece_shape.h"
 
+#include "lib/analysis/trunk/components.h"
+
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -23,6 +25,8 @@ constexpr double k_no_volume = 1e-8;
 constexpr double k_stem_elongation = 1.8;
 // Bent and branching stems fill little of their ellipsoid; hollow tiers of a conifer at least 0.19.
 constexpr double k_stem_fill = 0.1;
+// Pieces of fewer triangles are not asked how many borders they have: cards, most of a foliage.
+constexpr std::size_t k_one_border = 16;
 constexpr double k_planar_cosine = 1 - 1e-6;
 
 // Coordinates are about 1 here: squares are safe, and much cheaper than length().
@@ -175,9 +179,42 @@ double roundness(const Sums& sums) {  // 36 pi V^2 / A^3
   return 36 * std::numbers::pi * sums.volume * sums.volume / (sums.area * sums.area * sums.area);
 }
 
+// The sum of the squared lengths of all borders. A tree in one surface has a thousand tips, open each: their
+// borders together are as long as a sheet's, one by one they are short.
+double squared_borders(const Mesh& mesh, std::span<const std::uint32_t> welded, const Pieces& pieces,
+                       std::span<const std::uint32_t> triangles, const Reader& reader) {
+  struct Edge {
+    std::uint32_t a, b;
+    double length;
+  };
+  std::vector<Edge> edges;
+  std::vector<std::uint32_t> vertices;
+  for (const std::uint32_t t : triangles) {
+    for (int e = 0; e < 3; ++e) {
+      if (!(pieces.edges[t] & Pieces::border_0 << e)) continue;
+      const std::uint32_t a = mesh.triangles[t][e], b = mesh.triangles[t][(e + 1) % 3];
+      edges.push_back({welded[a], welded[b], norm(reader.at(b) - reader.at(a))});
+      vertices.insert(vertices.end(), {welded[a], welded[b]});
+    }
+  }
+  std::ranges::sort(vertices);
+  const auto repeated = std::ranges::unique(vertices);
+  vertices.erase(repeated.begin(), repeated.end());
+  const auto number = [&](std::uint32_t v) {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(vertices, v) - vertices.begin());
+  };
+  UnionFind borders(vertices.size());
+  for (const Edge& e : edges) borders.unite(number(e.a), number(e.b));
+  std::vector<double> lengths(vertices.size(), 0);
+  for (const Edge& e : edges) lengths[borders.find(number(e.a))] += e.length;
+  double sum = 0;
+  for (const double l : lengths) sum += l * l;
+  return sum;
+}
+
 // Sheets of one layer, told without looking at their axes: nearly all of a foliage ends here.
-bool is_single_sheet(const Sums& sums) {
-  if (sums.border * sums.border < k_sheet_border * sums.area) return false;
+bool is_single_sheet(const Sums& sums, double squared_border) {
+  if (squared_border < k_sheet_border * sums.area) return false;
   return sums.non_manifold || norm(sums.area_vector) >= k_sheet_opening * sums.area;
 }
 
@@ -213,9 +250,13 @@ PieceShape shape_of(const Mesh& mesh, std::span<const std::uint32_t> welded, con
   shape.size = length(shape.box.extent());
   shape.area = sums.area / reader.scale() / reader.scale();
   if (!(sums.area > 0)) return shape;  // a line or a point: as good as a sheet
-  shape.border_ratio = sums.border * sums.border / sums.area;
   shape.planar = sums.planar;
-  if (sums.planar || is_single_sheet(sums)) return shape;
+  double squared_border = sums.border * sums.border;
+  if (!sums.planar && triangles.size() >= k_one_border && squared_border >= k_sheet_border * sums.area) {
+    squared_border = squared_borders(mesh, welded, pieces, triangles, reader);
+  }
+  shape.border_ratio = squared_border / sums.area;
+  if (sums.planar || is_single_sheet(sums, squared_border)) return shape;
   if (sums.border == 0 && roundness(sums) < k_no_volume) {
     const SingleLayer layer = single_layer(mesh, welded, triangles, reader);
     const Reader single(mesh, layer.triangles);

@@ -23,8 +23,8 @@ struct PieceShape {
   DoubleBox box;
   double size = 0;  // diagonal of the box
   double area = 0;  // of all triangles, so both sides where there are two
-  // Squared length of the border over the area. Isoperimetric: at least 4 pi = 12.6 for whatever can be
-  // flattened; 8 pi r / L for an open tube; 0 when closed.
+  // Squared length of the border (of each, where there are several) over the area. Isoperimetric: at least 4
+  // pi = 12.6 for whatever can be flattened; 8 pi r / L for an open tube; 0 when closed.
   double border_ratio = 0;
   double elongation = 1;  // largest over second spread along principal axes
   double fill = 0;        // volume over that of the ellipsoid along the principal axes
