@@ -41,6 +41,15 @@ TEST(Join, LeavesRingsApartThatDifferInPlaceOrThickness) {
   EXPECT_NE(limbs.limb[0], limbs.limb[6]);
 }
 
+TEST(Join, LeavesABranchItsOwnRingWhereItBeginsAmidItsParent) {
+  Limbs limbs;
+  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 1});
+  add_limb(limbs, {0, 1, 0}, {1, 0, 0}, {1, 0.9, 0.8});
+  LimbSegments segments(limbs);
+  join(limbs, segments);
+  EXPECT_NE(limbs.limb[0], limbs.limb[3]);
+}
+
 TEST(Join, DoesNotCloseALoopOfTwoTubesInOnePlace) {
   Limbs limbs;
   add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 1});

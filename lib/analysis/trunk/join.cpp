@@ -89,6 +89,8 @@ void join(Limbs& limbs, LimbSegments& segments) {
   std::vector<Nearness> found;
   const std::vector<std::uint32_t> ends = end_rings(limbs);
   const std::vector<std::uint8_t> is_start = clear_starts(limbs, ends);
+  std::vector<std::uint8_t> is_end(limbs.rings(), 0);
+  for (const std::uint32_t end : ends) is_end[end] = 1;
   for (const std::uint32_t end : ends) {
     const double radius = limbs.diameter[end] / 2;
     if (radius <= 0) continue;
@@ -96,6 +98,8 @@ void join(Limbs& limbs, LimbSegments& segments) {
                        found);
     for (const Nearness& near : found) {
       for (const std::uint32_t ring : segments.rings[near.segment]) {
+        // A limb that begins amid another one is a branch of it, however thick.
+        if (!is_end[ring]) continue;
         // Two limbs that begin in one place are siblings, and grow side by side from something else.
         if (is_start[end] && is_start[ring]) continue;
         if (coincide(limbs, end, ring)) joints.merge(end, ring);

@@ -23,9 +23,10 @@ struct LimbSegments {
   SegmentTree tree;
 };
 
-// Merges every end ring with a ring of another limb that has the same centre and diameter (tolerances.h), and
-// with the limbs the limb numbers in `limbs` and in the segments. Limbs that are already one are not joined a
-// second time: two tubes laid in the same place stay two from their common ring on. O(n log n).
+// Merges every end ring with the end rings of other limbs that have the same centre and diameter
+// (tolerances.h), and with the limbs the limb numbers in `limbs` and in the segments. Limbs that are already
+// one are not joined a second time: two tubes laid in the same place stay two from their common ring on. O(n
+// log n).
 void join(Limbs& limbs, LimbSegments& segments);
 
 }  // namespace copse
