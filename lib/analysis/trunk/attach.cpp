@@ -1,6 +1,7 @@
 #include "lib/analysis/trunk/attach.h"
 
 #include "lib/analysis/trunk/arborescence.h"
+#include "lib/analysis/trunk/lists.h"
 #include "lib/analysis/trunk/taper.h"
 #include "lib/analysis/trunk/tolerances.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 // A possible parent of a limb.
 struct Candidate {
-  std::uint32_t limb = 0, ring = 0;
+  std::uint32_t limb = 0, ring = 0, segment = 0;
   double offset = 0;    // of the base from the axis, in radii
   double edge = 0;      // of the base edge that is nearest to the axis, likewise; < 0 beyond the axis
   double ratio = 0;     // ln of the child's radius over the parent's
@@ -32,6 +33,14 @@ struct Habit {
   double ratio = 0, ratio_spread = 0;  // ln of a child's radius over its parent's; spread 0: unknown
 };
 
+Lists segments_of_rings(const Limbs& limbs, const LimbSegments& segments) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (std::uint32_t s = 0; s < segments.rings.size(); ++s) {
+    for (const std::uint32_t r : segments.rings[s]) pairs.emplace_back(limbs.alive(r), s);
+  }
+  return make_lists(pairs, limbs.rings());
+}
+
 class Attacher {
  public:
   Attacher(const Limbs& limbs, const LimbSegments& segments, const Ground& ground,
@@ -39,6 +48,7 @@ class Attacher {
       : limbs_(limbs),
         segments_(segments),
         ground_(ground),
+        segments_at_(segments_of_rings(limbs, segments)),
         natural_bases_(bases),
         bases_(bases.begin(), bases.end()) {}
 
@@ -47,7 +57,7 @@ class Attacher {
     find_candidates();
     mark_buried();
     const Habit usual = habit();
-    for (Candidate& c : candidates_) c.cost = cost(c, usual);
+    for (std::uint32_t l = 0; l < bases_.size(); ++l) rate(l, usual);
     choose();
     std::vector<Attachment> attachments(bases_.size());
     for (std::uint32_t l = 0; l < bases_.size(); ++l) {
@@ -67,6 +77,7 @@ class Attacher {
   Habit habit(double Candidate::*measure) const;
   Habit habit() const;
   static double cost(const Candidate& candidate, const Habit& habit);
+  void rate(std::uint32_t limb, const Habit& habit);
   void choose();
   double lean(const Nearness& near, std::uint32_t base) const;
   Candidate candidate(const Nearness& near, std::uint32_t base, double radius) const;
@@ -75,6 +86,7 @@ class Attacher {
   const Limbs& limbs_;
   const LimbSegments& segments_;
   const Ground& ground_;
+  Lists segments_at_;  // one a ring
   std::span<const std::uint32_t> natural_bases_;
   std::vector<std::uint32_t> bases_;                         // by which limbs are attached, if they are
   double size_ = 0;                                          // of the whole trunk
@@ -144,6 +156,7 @@ Candidate Attacher::candidate(const Nearness& near, std::uint32_t base, double r
   // Nothing grows from a point if there is a ring to grow from.
   if (limbs_.source[ring] == RadiusSource::point) ring = rings[near.t < 0.5 ? 1 : 0];
   Candidate c;
+  c.segment = near.segment;
   c.ring = limbs_.alive(ring);
   c.limb = limbs_.limb[c.ring];
   const double wide = std::max(near.radius, radius / 2);
@@ -280,6 +293,29 @@ double Attacher::cost(const Candidate& c, const Habit& habit) {
   const double ratio = habit.ratio_spread > 0 ? std::abs(c.ratio - habit.ratio) / habit.ratio_spread : 0;
   return levelled(offset, k_cost_offset) + levelled(ratio, k_cost_ratio) + k_cost_too_thin * c.too_thin +
          k_cost_buried * c.buried + c.doubt;
+}
+
+// The costs of a limb's possible parents. Where a parent bends or changes its thickness, the segment that the
+// limb was set on may be the next one to that which is nearest.
+void Attacher::rate(std::uint32_t limb, const Habit& habit) {
+  for (std::uint32_t i = first_[limb]; i < first_[limb + 1]; ++i) {
+    Candidate& c = candidates_[i];
+    c.cost = cost(c, habit);
+    const Candidate nearest = c;
+    for (const std::uint32_t ring : segments_.rings[nearest.segment]) {
+      for (const std::uint32_t segment : segments_at_[limbs_.alive(ring)]) {
+        if (segment == nearest.segment) continue;
+        const std::uint32_t base = bases_[limb];
+        const Nearness near = nearness(segments_.tree.segments(), segment, limbs_.centre[base]);
+        if (near.gap() > k_contact_reach * radius_[limb]) continue;
+        Candidate other = candidate(near, base, radius_[limb]);
+        other.buried = nearest.buried;
+        other.doubt = nearest.doubt;
+        other.cost = cost(other, habit);
+        if (other.cost < c.cost) c = other;
+      }
+    }
+  }
 }
 
 // Where nothing else decides, the lowest and thickest limb is the root.
