@@ -51,7 +51,7 @@ TEST(BandGrowth, ReadsAClosedTubeFromItsCaps) {
   const Surface s = surface_of(tube(axis, radii, 6, true));
   Bands bands = none_of(s);
   BandGrowth growth(s, bands);
-  growth.start_at_points();
+  growth.start_at_points(BandGrowth::Points::all);
   growth.run(false);
   EXPECT_EQ(bands.count(), 5u);
   EXPECT_EQ(bands.triangles.size(), s.triangles.size());
@@ -62,7 +62,7 @@ TEST(BandGrowth, WaitsAtAForkForTheOtherLimb) {
   const Surface s = surface_of(tree.mesh);
   Bands bands = none_of(s);
   BandGrowth growth(s, bands);
-  growth.start_at_points();  // two fans; what is left of their links is the ring below
+  growth.start_at_points(BandGrowth::Points::all);  // two fans; what is left of their links is the ring below
   growth.run(false);
   EXPECT_EQ(bands.count(), 3u);
   EXPECT_EQ(bands.triangles.size(), s.triangles.size());
@@ -85,7 +85,7 @@ TEST(BandGrowth, FindsNothingInsideASheet) {
   Bands bands = none_of(s);
   BandGrowth growth(s, bands);
   growth.start_at_borders();
-  growth.start_at_points();
+  growth.start_at_points(BandGrowth::Points::all);
   growth.run(true);
   EXPECT_EQ(bands.count(), 0u);
 }
@@ -120,7 +120,7 @@ TEST(BandGrowth, IsSoundOnAnything) {
     Bands bands = none_of(s);
     BandGrowth growth(s, bands);
     growth.start_at_borders();
-    growth.start_at_points();
+    growth.start_at_points(BandGrowth::Points::all);
     growth.run(false);
     growth.close_fans();
     growth.fill_collars();

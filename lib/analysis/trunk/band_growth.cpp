@@ -206,8 +206,8 @@ bool BandGrowth::continues_behind(const Fan& fan, int rings) {
   return good;
 }
 
-bool BandGrowth::is_point(std::uint32_t v, const Fan& fan) {
-  if (fan.angle <= k_point_angle) return true;
+bool BandGrowth::is_point(std::uint32_t v, const Fan& fan, Points which) {
+  if (fan.angle <= k_point_angle) return which == Points::all || continues_behind(fan, 2);
   // The ring behind the link has as many vertices as the link when the link's have five triangles on average.
   std::uint64_t degrees = 0;
   for (const std::uint32_t x : fan.link) degrees += degree_[x];
@@ -233,11 +233,11 @@ std::vector<std::uint32_t> BandGrowth::first_unread() const {
   return first;
 }
 
-void BandGrowth::start_at_points() {
+void BandGrowth::start_at_points(Points which) {
   const std::vector<std::uint32_t> first = first_unread();
   Fan fan;
   for (std::uint32_t v = 0; v < first.size(); ++v) {
-    if (unread(first[v]) && collect_fan(v, first[v], fan) && is_point(v, fan)) read_fan(v, fan);
+    if (unread(first[v]) && collect_fan(v, first[v], fan) && is_point(v, fan, which)) read_fan(v, fan);
   }
 }
 
@@ -277,20 +277,29 @@ void BandGrowth::start_at_bands(std::uint32_t first) {
   committed_at_ = walks_;
 }
 
-// Cuts the corner with the shortest diagonal until a triangle is left.
-static std::vector<Triangle> fill_polygon(std::span<const Double3> positions,
-                                          std::vector<std::uint32_t> ring) {
+// A polygon's corner with the side that follows it, and the band across that side; k_none where there is
+// none.
+struct Corner {
+  std::uint32_t vertex = 0, band = k_none;
+};
+
+// Cuts the corner with the shortest diagonal until a triangle is left. Where the corner's two sides lie on
+// one band they are part of its ring, and a triangle there would close what the next band must run through.
+static std::vector<Triangle> fill_polygon(std::span<const Double3> positions, std::vector<Corner> ring) {
   std::vector<Triangle> triangles;
   while (ring.size() >= 3) {
-    std::size_t best = 0;
-    double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < ring.size() && ring.size() > 3; ++i) {
-      const std::size_t last = (i + ring.size() - 1) % ring.size(), next = (i + 1) % ring.size();
-      const double d = distance(positions[ring[last]], positions[ring[next]]);
-      if (d < shortest) shortest = d, best = i;
-    }
     const std::size_t n = ring.size();
-    triangles.push_back({ring[(best + n - 1) % n], ring[best], ring[(best + 1) % n]});
+    std::size_t best = 0;
+    std::pair<bool, double> least{true, std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < n && n > 3; ++i) {
+      const Corner &last = ring[(i + n - 1) % n], &next = ring[(i + 1) % n];
+      const bool on_ring = last.band != k_none && last.band == ring[i].band;
+      const std::pair cost(on_ring, distance(positions[last.vertex], positions[next.vertex]));
+      if (cost < least) least = cost, best = i;
+    }
+    const std::size_t last = (best + n - 1) % n;
+    triangles.push_back({ring[last].vertex, ring[best].vertex, ring[(best + 1) % n].vertex});
+    ring[last].band = k_none;
     ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(best));
     if (n == 3) break;
   }
@@ -313,8 +322,15 @@ void BandGrowth::fill(std::uint32_t ring) {
       break;
     }
   }
+  std::vector<Corner> corners;
+  for (const std::uint32_t v : polygon) corners.push_back({v, k_none});
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    for (const Side& s : sides) {
+      if (s.a == polygon[i] && s.outside < bands_.band_of.size()) corners[i].band = bands_.band_of[s.outside];
+    }
+  }
   const auto first = static_cast<std::uint32_t>(triangles_.size());
-  for (const Triangle& t : fill_polygon(surface_.positions, polygon)) {
+  for (const Triangle& t : fill_polygon(surface_.positions, corners)) {
     triangles_.push_back(t);
     across_.push_back({k_none, k_none, k_none});
     claimed_.push_back(0);
@@ -347,8 +363,8 @@ void BandGrowth::fill(std::uint32_t ring) {
   }
 }
 
-// Whether some of the ring's edges, but not all, have something unread on their far side.
-bool BandGrowth::is_collar(std::uint32_t ring) {
+// The share of a ring's edges that have something unread on their far side; 0 for rings on a border.
+double BandGrowth::open_share(std::uint32_t ring) {
   const std::uint32_t band = ring / 2;
   ++stamp_;
   is_simple(bands_.ring(ring));  // marks its vertices
@@ -360,24 +376,27 @@ bool BandGrowth::is_collar(std::uint32_t ring) {
       open += unread(across_[t][e]), border += across_[t][e] == k_none;
     }
   }
-  return open > 0 && border == 0;
+  return border > 0 ? 0 : static_cast<double>(open) / static_cast<double>(bands_.ring(ring).size());
 }
 
 void BandGrowth::fill_collars() {
+  // Where a limb sits in another one, the hole for it and the rings of that other one are open in part. The
+  // hole is so at its sides alone.
   struct Collar {
-    double radius;
+    double open, radius;
     std::uint32_t ring;
+    auto operator<=>(const Collar&) const = default;
   };
   std::vector<Collar> collars;
   for (std::uint32_t r = 0; r < 2 * bands_.count(); ++r) {
     const std::size_t k = bands_.ring(r).size();
-    if (k >= 3 && k <= k_widest_collar && is_collar(r)) {
-      collars.push_back({ring_circle(surface_.positions, bands_.ring(r)).radius, r});
-    }
+    if (k < 3 || k > k_widest_collar) continue;
+    const double open = open_share(r);
+    if (open > 0) collars.push_back({open, ring_circle(surface_.positions, bands_.ring(r)).radius, r});
   }
-  std::ranges::stable_sort(collars, {}, &Collar::radius);
+  std::ranges::sort(collars);
   for (const Collar& c : collars) {
-    if (!is_collar(c.ring)) continue;  // filling another one has led past it
+    if (open_share(c.ring) == 0) continue;  // filling another one has led past it
     fill(c.ring);
     committed_at_ = walks_;
     read_regular();

@@ -28,7 +28,9 @@ class BandGrowth {
   // Fronts: the borders of the surface, and the rings round pointed ends (cones steeper than
   // k_point_angle, and blunter ones behind which two more rings of the same size follow).
   void start_at_borders();
-  void start_at_points();
+  // A sharp vertex may be a bend of a thin limb: those that rings follow first.
+  enum class Points : std::uint8_t { followed_by_rings, all };
+  void start_at_points(Points which);
   // Reads fans round a vertex of which half or more is bordered by one band: blunt points, and caps.
   void close_fans();
   // Fronts: the rings of bands first .. count() - 1, which another method has found.
@@ -39,8 +41,8 @@ class BandGrowth {
   // most 45 degrees: those that change it least first.
   void run(bool change);
 
-  // Closes the holes that are left where limbs were cut into others, small ones first, with triangles that
-  // stand for the missing surface, and reads on from there.
+  // Closes the holes that are left where limbs were cut into others, the least open and small ones first,
+  // with triangles that stand for the missing surface, and reads on from there.
   void fill_collars();
 
  private:
@@ -83,11 +85,11 @@ class BandGrowth {
   void commit();
   void read_regular();
   bool collect_fan(std::uint32_t v, std::uint32_t t, Fan& fan);
-  bool is_point(std::uint32_t v, const Fan& fan);
+  bool is_point(std::uint32_t v, const Fan& fan, Points which);
   void read_fan(std::uint32_t v, const Fan& fan);
   std::vector<std::uint32_t> first_unread() const;
   bool continues_behind(const Fan& fan, int rings);
-  bool is_collar(std::uint32_t ring);
+  double open_share(std::uint32_t ring);
   void fill(std::uint32_t ring);
 
   const Surface& surface_;

@@ -18,7 +18,10 @@ Bands read_bands(const Surface& surface, bool in_order) {
   {
     BandGrowth growth(surface, bands);
     growth.start_at_borders();
-    growth.start_at_points();
+    growth.run(false);
+    growth.start_at_points(BandGrowth::Points::followed_by_rings);
+    growth.run(false);
+    growth.start_at_points(BandGrowth::Points::all);
     growth.run(false);
   }
   if (bands.triangles.size() < surface.triangles.size()) {
