@@ -108,7 +108,7 @@ TEST(LeafCollapse, DegenerateLeavesGiveFiniteStates) {
       const Spectrum s = collapse_spectrum(LeafyTree{.leaves = leaves, .half = size, .radius = size}.make());
       EXPECT_EQ(s.counts[s.steps()], 1u);
       for (const SpectrumVertex& v : s.vertices) EXPECT_TRUE(is_finite(v.position)) << size;
-      for (const float e : s.errors) EXPECT_TRUE(std::isfinite(e));
+      for (const float e : s.errors) EXPECT_LE(e, 4e15f) << size;
     }
   }
 }

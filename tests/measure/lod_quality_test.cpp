@@ -29,6 +29,11 @@ TEST(LodQuality, OfTheSourceItselfIsPerfect) {
   EXPECT_EQ(q.hull_growth, 0);
 }
 
+TEST(LodQuality, TheImageErrorAloneIsTheSame) {
+  const LodJudge judge(cube({}, 1), {});
+  EXPECT_EQ(judge.rmse(cube({}, 0.9)), judge.measure(cube({}, 0.9)).rmse);
+}
+
 TEST(LodQuality, OfNothingIsNothing) {
   const LodQuality q = LodJudge(cube({}, 1), {}).measure({});
   EXPECT_EQ(q.area_ratio, 0);

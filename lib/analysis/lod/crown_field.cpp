@@ -79,7 +79,7 @@ void CrownField::deposit(const FoliageTriangle& t) {
   const Double3 e = t.corners[1] - t.corners[0], f = t.corners[2] - t.corners[0];
   const double area = 0.5 * length(cross(e, f)), side = std::max(length(e), length(f));
   const int n = std::clamp(static_cast<int>(std::ceil(2 * side / cell_)), 1, k_most_samples);
-  const auto share = static_cast<float>(area * t.opacity / (double(n) * n));
+  const auto share = static_cast<float>(area / (cell_ * cell_) * t.opacity / (double(n) * n));
   double outside = 0;
   const auto put = [&](double u, double v) {
     const auto [x, y, z] = cell_of(t.corners[0] + e * u + f * v, outside);
@@ -98,7 +98,7 @@ void CrownField::sweep(std::array<int, 3> step, std::vector<float>& depth) const
   const double steps = std::sqrt(double(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]));
   // A leaf of area A in the cell hides A / 2 of cell^2; a slanted ray is longer in the cell and meets more of
   // it.
-  const auto scale = static_cast<float>(0.5 * steps / (cell_ * cell_));
+  const auto scale = static_cast<float>(0.5 * steps);
   const auto range = [&](int axis) {
     return step[axis] < 0 ? std::array{size_[axis] - 1, -1, -1} : std::array{0, size_[axis], 1};
   };
@@ -124,7 +124,7 @@ void CrownField::see() {
     const std::array step{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
     sweep(step, front), sweep({-step[0], -step[1], -step[2]}, back);
     const double steps = std::sqrt(double(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]));
-    const auto scale = static_cast<float>(0.5 * steps / (cell_ * cell_));
+    const auto scale = static_cast<float>(0.5 * steps);
     for (std::size_t c = 0; c < area_.size(); ++c) {
       const float f = std::exp(-front[c]), b = std::exp(-back[c]), half = std::exp(-0.5f * scale * area_[c]);
       exposure_[c] += (f + b) * half / 26;

@@ -66,7 +66,8 @@ class CrownField {
   Double3 low_{};
   double cell_ = 1, per_cell_ = 1, cross_section_ = 0, width_ = 0;
   std::array<int, 3> size_{1, 1, 1};
-  std::vector<float> area_;  // of foliage in the cell, opaque part
+  std::vector<float>
+      area_;  // of foliage in the cell, opaque part, in cell sides squared: of any size of tree
   std::vector<std::uint8_t> full_;
   std::vector<float> exposure_;
   std::vector<Place> places_;

@@ -185,7 +185,9 @@ class Chooser {
     if (field_ != nullptr) stay_in_hull(out);
     if (!options_.card) out.corners[3] = out.corners[0];
     out.normal = best_.frame.n;
-    out.displacement = std::sqrt(std::max(best_.cost, 0.0) * size_ * size_ + spread_.along(best_.frame.n));
+    // A flat set's spread across its plane is 0 up to rounding, which may be below it.
+    const double across = std::max(spread_.along(best_.frame.n), 0.0);
+    out.displacement = std::sqrt(std::max(best_.cost, 0.0) * size_ * size_ + across);
     return out;
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <tbb/parallel_for.h>
 
@@ -98,6 +99,16 @@ LodJudge::LodJudge(const DrawnMesh& source, const Looks& looks, const LodQuality
   hull_directions_ = view_sphere(k_hull_subdivisions).directions;
   support_ = supports(source, hull_directions_);
   width_ = widest(hull_directions_, support_);
+}
+
+double LodJudge::rmse(const DrawnMesh& level) const {
+  std::vector<double> squares(images_.size());
+  tbb::parallel_for(std::size_t{0}, images_.size(), [&](std::size_t v) {
+    const double e = picture_error(images_[v], draw_picture(level, looks_, image_views_[v], 2)).rmse;
+    squares[v] = e * e;
+  });
+  return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) /
+                   static_cast<double>(squares.size()));
 }
 
 LodQuality LodJudge::measure(const DrawnMesh& level) const {

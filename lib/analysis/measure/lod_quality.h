@@ -36,6 +36,8 @@ class LodJudge {
   // depend on the number of threads. Cost: views x (triangles + pixels).
   LodJudge(const DrawnMesh& source, const Looks& looks, const LodQualityOptions& options = {});
   LodQuality measure(const DrawnMesh& level) const;
+  // The image error alone.
+  double rmse(const DrawnMesh& level) const;
 
  private:
   std::vector<OrthographicView> image_views_, mask_views_;
