@@ -23,6 +23,7 @@ namespace {
 
 struct Plugin {
   CopseImageDecode decode = nullptr;
+  CopseImageDecodeFloats decode_floats = nullptr;
   CopseImageEncode encode = nullptr;
   std::string problem;  // why it could not be loaded
 };
@@ -58,6 +59,7 @@ Plugin load() {
     CopseImageVersion version = nullptr;
     if (find(library, "copse_image_version", version) && version() == COPSE_IMAGES_VERSION &&
         find(library, "copse_image_decode", plugin.decode) &&
+        find(library, "copse_image_decode_floats", plugin.decode_floats) &&
         find(library, "copse_image_encode", plugin.encode)) {
       plugin.problem.clear();
       return plugin;
@@ -134,6 +136,22 @@ std::uint8_t* allocate(void* user, int width, int height, int has_alpha) {
   return image.rgba.data();
 }
 
+float* allocate_floats(void* user, int width, int height, int channels) {
+  auto& image = *static_cast<FloatImage*>(user);
+  const std::uint64_t numbers = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) *
+                                static_cast<std::uint64_t>(channels);
+  if (numbers > k_image_pixels) return nullptr;
+  image.width = width;
+  image.height = height;
+  image.channels = channels;
+  try {
+    image.values.resize(numbers);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+  return image.values.data();
+}
+
 void append(void* user, const std::uint8_t* bytes, std::size_t size) {
   static_cast<std::vector<std::uint8_t>*>(user)->assign(bytes, bytes + size);
 }
@@ -194,6 +212,24 @@ Result<Image> read_image(const std::filesystem::path& path) {
   const Result<Bytes> bytes = open_bytes(path);
   if (!bytes) return std::unexpected(bytes.error());
   return read_image(*bytes, path.string());
+}
+
+Result<FloatImage> read_float_image(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  const Result<Bytes> bytes = open_bytes(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  const std::span<const std::uint8_t> view = *bytes;
+  const char* format = format_of(view, name);
+  if (format == nullptr)
+    return refuse(name, "is of no image format that is read here", "convert it to PNG, TIFF or EXR");
+  const Result<const Plugin*> library = plugin(name);
+  if (!library) return std::unexpected(library.error());
+  FloatImage image;
+  CopseImageError error{};
+  if ((*library)->decode_floats(view.data(), view.size(), format, allocate_floats, &image, &error) != 0)
+    return refuse(name, fmt::format("cannot be read as {}: {}", format, one_line(error.text)),
+                  fmt::format("store it again, with at most {} numbers", k_image_pixels));
+  return image;
 }
 
 Result<std::vector<std::uint8_t>> encode_png(const Image& image) {

@@ -20,6 +20,13 @@ struct Image {
   bool has_alpha = false;  // false: alpha is 255 everywhere because the file has none
 };
 
+// The numbers of an image, for maps: rows from the top, channels interleaved, as many as the file has. Whole
+// numbers of any width become 0 to 1 without any curve; floats stay as they are.
+struct FloatImage {
+  int width = 0, height = 0, channels = 0;
+  std::vector<float> values;
+};
+
 // A picture of more pixels is refused: 8192 x 8192, 256 MB of RGBA.
 inline constexpr std::uint64_t k_image_pixels = std::uint64_t{1} << 26;
 
@@ -28,6 +35,9 @@ inline constexpr std::uint64_t k_image_pixels = std::uint64_t{1} << 26;
 // and become sRGB.
 Result<Image> read_image(const std::filesystem::path& path);
 Result<Image> read_image(std::span<const std::uint8_t> bytes, const std::string& name);
+
+// At most 64 channels, and k_image_pixels numbers.
+Result<FloatImage> read_float_image(const std::filesystem::path& path);
 
 // The bytes of a PNG file, 8 bits a channel, RGBA (RGB without alpha); deterministic.
 Result<std::vector<std::uint8_t>> encode_png(const Image& image);

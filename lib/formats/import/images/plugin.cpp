@@ -180,6 +180,28 @@ int decode(const std::uint8_t* bytes, std::size_t size, const char* format, Cops
   return good ? 0 : report(error, reason.empty() ? "its pixels cannot be read" : reason);
 }
 
+int decode_floats(const std::uint8_t* bytes, std::size_t size, const char* format,
+                  CopseImageAllocateFloats allocate, void* user, CopseImageError* error) {
+  configure();
+  OIIO::Filesystem::IOMemReader memory(bytes, size);
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
+  if (!input) return report(error, OIIO::geterror());
+  if (!input->supports("ioproxy")) return report(error, "the format cannot be read from memory");
+  input->set_ioproxy(&memory);
+  OIIO::ImageSpec config;
+  config["oiio:UnassociatedAlpha"] = 1;
+  OIIO::ImageSpec spec;
+  if (!input->open(std::string("image.") + format, spec, config)) return report(error, input->geterror());
+  if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
+    return report(error, "it has no pixels that make a picture");
+  float* out = allocate(user, spec.width, spec.height, spec.nchannels);
+  if (out == nullptr) return report(error, "it is too large");
+  const bool good = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out);
+  const std::string reason = good ? std::string() : input->geterror();
+  input->close();
+  return good ? 0 : report(error, reason.empty() ? "its pixels cannot be read" : reason);
+}
+
 // Pixels as the file wants them: bytes, or linear premultiplied floats.
 std::vector<float> to_linear(const std::uint8_t* rgba, std::size_t pixels, std::size_t channels) {
   std::vector<float> out;
@@ -254,6 +276,18 @@ extern "C" {
     const Complaints complaints;
     const int status = decode(bytes, size, format, allocate, user, error);
     // OpenImageIO's own words are often none when the library below has spoken.
+    if (status != 0 && !complaints.text().empty()) return report(error, complaints.text());
+    return status;
+  });
+}
+
+[[gnu::visibility("default")]] int copse_image_decode_floats(const std::uint8_t* bytes, std::size_t size,
+                                                             const char* format,
+                                                             CopseImageAllocateFloats allocate, void* user,
+                                                             CopseImageError* error) {
+  return guarded(error, [&] {
+    const Complaints complaints;
+    const int status = decode_floats(bytes, size, format, allocate, user, error);
     if (status != 0 && !complaints.text().empty()) return report(error, complaints.text());
     return status;
   });

@@ -1,0 +1,174 @@
+#include "lib/analysis/ecosystem/density_field.h"
+
+#include "lib/analysis/ecosystem/degrees.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace copse {
+namespace {
+
+constexpr double k_infinite = std::numeric_limits<double>::infinity();
+
+bool is_limit(const Range& r) {
+  return r.min > -k_infinite || r.max < k_infinite;
+}
+
+// The lower envelope of parabolas (x - i)^2 step^2 + f[i]: min over i, for every x.
+void transform_line(std::vector<double>& f, double step, std::vector<double>& out,
+                    std::vector<std::size_t>& at, std::vector<double>& border) {
+  const std::size_t n = f.size();
+  out.assign(n, k_infinite);
+  at.assign(n, 0);
+  border.assign(n + 1, 0);
+  std::size_t k = 0;
+  bool any = false;
+  const double s2 = step * step;
+  for (std::size_t q = 0; q < n; ++q) {
+    if (f[q] == k_infinite) continue;
+    if (!any) {
+      any = true;
+      at[0] = q;
+      border[0] = -k_infinite;
+      border[1] = k_infinite;
+      continue;
+    }
+    double cut = 0;
+    while (true) {
+      const auto p = static_cast<double>(at[k]), x = static_cast<double>(q);
+      cut = ((f[q] - f[at[k]]) / s2 + x * x - p * p) / (2 * (x - p));
+      if (cut > border[k] || k == 0) break;
+      --k;
+    }
+    if (cut <= border[k]) {
+      at[k] = q;
+      border[k + 1] = k_infinite;
+      continue;
+    }
+    ++k;
+    at[k] = q;
+    border[k] = cut;
+    border[k + 1] = k_infinite;
+  }
+  if (!any) return;
+  std::size_t j = 0;
+  for (std::size_t q = 0; q < n; ++q) {
+    while (border[j + 1] < static_cast<double>(q)) ++j;
+    const double d = (static_cast<double>(q) - static_cast<double>(at[j])) * step;
+    out[q] = d * d + f[at[j]];
+  }
+}
+
+struct ClusterKernel {
+  std::vector<Double3> centres;
+  double radius = 1;
+  // Smooth, 1 at a centre and 0 at the radius; where clusters meet the nearer one counts.
+  double at(double x, double z) const {
+    double nearest = radius * radius;
+    for (const Double3& c : centres) {
+      const double dx = x - c.x, dz = z - c.z;
+      nearest = std::min(nearest, dx * dx + dz * dz);
+    }
+    const double t = 1 - nearest / (radius * radius);
+    return t * t;
+  }
+};
+
+}  // namespace
+
+bool PlacementRules::limits_anything() const {
+  return density || forbidden || share_of || distance_to || is_limit(slope) || is_limit(altitude) ||
+         clusters.count > 0;
+}
+
+double DensityField::total() const {
+  double sum = 0;
+  for (std::uint32_t r = 0; r < rows; ++r) {
+    double row = 0;
+    for (std::uint32_t c = 0; c < columns; ++c) row += weights[std::size_t{r} * columns + c];
+    sum += row;
+  }
+  return sum;
+}
+
+std::uint32_t field_side(std::uint32_t largest_map, std::uint64_t instances) {
+  const double wanted = std::max(2.0 * largest_map, std::sqrt(static_cast<double>(instances)));
+  return static_cast<std::uint32_t>(
+      std::clamp(std::ceil(wanted), 64.0, static_cast<double>(k_most_field_cells)));
+}
+
+ValueMap distance_map(const ValueMap& map, const Area& area) {
+  const double sx = area.width() / map.width, sz = area.depth() / map.height;
+  std::vector<double> squares(map.values.size());
+  for (std::size_t i = 0; i < squares.size(); ++i) squares[i] = map.values[i] >= 0.5f ? 0 : k_infinite;
+  std::vector<double> line, out, border;
+  std::vector<std::size_t> at;
+  for (std::uint32_t c = 0; c < map.width; ++c) {
+    line.resize(map.height);
+    for (std::uint32_t r = 0; r < map.height; ++r) line[r] = squares[std::size_t{r} * map.width + c];
+    transform_line(line, sz, out, at, border);
+    for (std::uint32_t r = 0; r < map.height; ++r) squares[std::size_t{r} * map.width + c] = out[r];
+  }
+  ValueMap result{map.width, map.height, std::vector<float>(map.values.size())};
+  for (std::uint32_t r = 0; r < map.height; ++r) {
+    const auto row = squares.begin() + static_cast<std::ptrdiff_t>(std::size_t{r} * map.width);
+    line.assign(row, row + map.width);
+    transform_line(line, sx, out, at, border);
+    for (std::uint32_t c = 0; c < map.width; ++c)
+      result.values[std::size_t{r} * map.width + c] = static_cast<float>(std::sqrt(out[c]));
+  }
+  return result;
+}
+
+PlacementTest::PlacementTest(const PlacementRules& rules, const Area& area, const Ground& ground)
+    : rules_(rules), area_(area), ground_(ground) {
+  if (is_limit(rules.slope)) {
+    // A slope of 0 to 90 degrees falls as the normal's y rises from 0 to 1.
+    least_up_ = sin_cos_degrees(std::clamp(rules.slope.max, 0.0, 90.0)).cos;
+    most_up_ = sin_cos_degrees(std::clamp(rules.slope.min, 0.0, 90.0)).cos;
+    if (rules.slope.max < 0 || rules.slope.min > 90) least_up_ = 2;  // never
+  }
+  if (rules.distance_to) distance_ = distance_map(*rules.distance_to, area);
+}
+
+bool PlacementTest::allows(double x, double z) const {
+  if (rules_.forbidden && pixel_at(*rules_.forbidden, area_, x, z) >= 0.5) return false;
+  if (rules_.distance_to && !rules_.distance.holds(pixel_at(distance_, area_, x, z))) return false;
+  const auto here = ground_.at(x, z);
+  if (!here) return false;
+  if (is_limit(rules_.slope) && !(here->normal.y >= least_up_ && here->normal.y <= most_up_)) return false;
+  return rules_.altitude.holds(here->height);
+}
+
+DensityField make_field(const PlacementRules& rules, const Area& area, const Ground& ground,
+                        std::uint32_t columns, std::uint32_t rows, const Random& random) {
+  DensityField field{area, columns, rows, std::vector<double>(std::size_t{columns} * rows)};
+  const PlacementTest test(rules, area, ground);
+  ClusterKernel clusters{.centres = {}, .radius = rules.clusters.radius};
+  for (std::uint32_t i = 0; i < rules.clusters.count; ++i) {
+    Random stream = random.fork(i);
+    clusters.centres.push_back({stream.uniform(area.x0, area.x1), 0, stream.uniform(area.z0, area.z1)});
+  }
+  const auto weight = [&](double x, double z) {
+    double w = rules.density ? std::max(pixel_at(*rules.density, area, x, z), 0.0) : 1;
+    if (w > 0 && rules.share_of) {
+      double sum = 0;
+      for (const ValueMap* share : rules.share_total) sum += std::max(pixel_at(*share, area, x, z), 0.0);
+      w = sum > 0 ? w * std::max(pixel_at(*rules.share_of, area, x, z), 0.0) / sum : 0;
+    }
+    if (w > 0 && !clusters.centres.empty()) w *= clusters.at(x, z);
+    return w > 0 && test.allows(x, z) ? w : 0;
+  };
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, rows), [&](const auto& range) {
+    for (std::uint32_t r = range.begin(); r < range.end(); ++r)
+      for (std::uint32_t c = 0; c < columns; ++c)
+        field.weights[std::size_t{r} * columns + c] =
+            weight(area.x0 + (c + 0.5) / columns * area.width(), area.z0 + (r + 0.5) / rows * area.depth());
+  });
+  return field;
+}
+
+}  // namespace copse

@@ -1,0 +1,76 @@
+// How likely a type of tree stands where: a map of density, times every rule, on a grid of cells.
+//
+// Source: digest 000, section 8, item 4 (maps as probabilities, populated and empty areas); slope, altitude,
+// distance and clusters are rules of terrain tools. A rule is sharp: it lets a point be or not.
+#pragma once
+
+#include "lib/analysis/ecosystem/ground.h"
+#include "lib/analysis/ecosystem/value_map.h"
+#include "lib/formats/random.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace copse {
+
+struct Range {
+  double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+  bool holds(double v) const { return v >= min && v <= max; }
+};
+
+struct Clusters {
+  std::uint32_t count = 0;  // 0: none
+  double radius = 1;        // m; nothing stands farther from every centre
+};
+
+// What limits one type. Maps may be null; they outlive the rules.
+struct PlacementRules {
+  const ValueMap* density = nullptr;    // >= 0, any scale
+  const ValueMap* forbidden = nullptr;  // nothing stands where it is at least 1/2
+  const ValueMap* share_of = nullptr;   // of a species mix: density is multiplied by share_of / share_total
+  std::vector<const ValueMap*> share_total{};
+  const ValueMap* distance_to = nullptr;  // `distance` is that to the nearest point where it is at least 1/2
+  Range distance{}, slope{}, altitude{};       // m, degrees, m
+  Clusters clusters{};
+  bool limits_anything() const;
+};
+
+// Weights of cells, row after row over an area.
+struct DensityField {
+  Area area;
+  std::uint32_t columns = 0, rows = 0;
+  std::vector<double> weights;  // >= 0
+  double total() const;         // summed row by row
+};
+
+inline constexpr std::uint32_t k_most_field_cells = 2048;  // a side
+
+// Cells a side for these maps and so many instances: at least 2 cells a pixel each way where that fits, and
+// at least as many cells as instances; at most k_most_field_cells.
+std::uint32_t field_side(std::uint32_t largest_map, std::uint64_t instances);
+
+// Weights at the centres of cells; 0 where there is no ground. Rows in parallel.
+DensityField make_field(const PlacementRules& rules, const Area& area, const Ground& ground,
+                        std::uint32_t columns, std::uint32_t rows, const Random& random);
+
+// Whether the sharp rules let something stand here (all but density, shares and clusters, which weigh).
+class PlacementTest {
+ public:
+  PlacementTest(const PlacementRules& rules, const Area& area, const Ground& ground);
+  bool allows(double x, double z) const;
+
+ private:
+  const PlacementRules& rules_;
+  Area area_;
+  const Ground& ground_;
+  double least_up_ = 0, most_up_ = 1;  // the slope as the normal's y
+  ValueMap distance_;                  // m, one a pixel of distance_to
+};
+
+// For every pixel of `map` the distance in metres from its centre to the nearest centre of a pixel of at
+// least 1/2; +infinity when there is none. Exact; O(pixels) (Felzenszwalb and Huttenlocher 2012).
+ValueMap distance_map(const ValueMap& map, const Area& area);
+
+}  // namespace copse

@@ -1,0 +1,50 @@
+// What is under a point of the XZ plane: the height and the normal of the terrain's triangle there.
+//
+// Source: digest 000, sections 2.3 to 2.5; hazards H28 and H29. Where a surface is folded the highest
+// triangle counts. On a regular grid a look-up costs a few operations; otherwise triangles are found through
+// a grid of buckets, O(1) on terrains whose triangles are of like size.
+#pragma once
+
+#include "lib/formats/ecosystem.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace copse {
+
+struct GroundPoint {
+  double height = 0;        // y
+  Double3 normal{0, 1, 0};  // of the triangle, length 1, y > 0
+};
+
+class Ground {
+ public:
+  // `terrain` must outlive it.
+  explicit Ground(const Terrain& terrain);
+
+  // The rectangle that the terrain covers or surrounds; a side of 0 where it is vertical.
+  double x0() const { return x0_; }
+  double z0() const { return z0_; }
+  double x1() const { return x1_; }
+  double z1() const { return z1_; }
+  // Whether every point of the rectangle has a triangle below it.
+  bool covers_all() const { return terrain_.regular(); }
+  // Area of the triangles seen from above, folds counted once more: 0 means that nothing can stand here.
+  double area() const;
+
+  // None: no triangle there. On a regular grid points outside are moved to the border.
+  std::optional<GroundPoint> at(double x, double z) const;
+
+ private:
+  GroundPoint at_regular(double x, double z) const;
+  std::optional<GroundPoint> at_free(double x, double z) const;
+  void fill_buckets();
+
+  const Terrain& terrain_;
+  double x0_ = 0, z0_ = 0, x1_ = 0, z1_ = 0;
+  std::uint32_t across_ = 0, down_ = 0;  // buckets
+  std::vector<std::uint32_t> first_, triangles_;
+};
+
+}  // namespace copse

@@ -1,0 +1,106 @@
+#include "lib/analysis/ecosystem/jittered_cells.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace copse {
+namespace {
+
+// Which cells are free, and the first free one from any cell on: a forest of links with path halving.
+class FreeCells {
+ public:
+  explicit FreeCells(std::uint64_t cells) : next_(cells + 1), free_(cells) {
+    std::iota(next_.begin(), next_.end(), 0);
+  }
+
+  std::uint64_t count() const { return free_; }
+  std::uint64_t end() const { return next_.size() - 1; }
+  bool is_free(std::uint64_t cell) const { return next_[cell] == cell; }
+  // end() when there is none.
+  std::uint64_t first_from(std::uint64_t cell) {
+    while (next_[cell] != cell) {
+      next_[cell] = next_[next_[cell]];
+      cell = next_[cell];
+    }
+    return cell;
+  }
+  void take(std::uint64_t cell) {
+    next_[cell] = cell + 1;
+    --free_;
+  }
+
+ private:
+  std::vector<std::uint64_t> next_;  // itself while it is free; the last one stands for the end
+  std::uint64_t free_;
+};
+
+class Placer {
+ public:
+  Placer(std::uint64_t cells, CellPlaces& places) : cells_(cells), free_(cells), places_(places) {}
+
+  void place(std::uint64_t count, Random random) {
+    if (count == 0) return;
+    const double ideal = static_cast<double>(cells_) / static_cast<double>(count);
+    double position = -0.5 * ideal;
+    std::uint64_t placed = 0;
+    for (; placed < count && free_.count() > 0; ++placed) {
+      position += ideal * random.uniform(1 - k_walk_margin, 1 + k_walk_margin);
+      if (position >= static_cast<double>(cells_)) break;
+      const auto wanted = static_cast<std::uint64_t>(std::max(position, 0.0));
+      const std::uint64_t cell = free_.first_from(wanted);
+      if (cell == free_.end()) break;
+      places_.displaced += cell != wanted;
+      put(cell);
+    }
+    put_at_random(count - placed, random.fork(1));
+  }
+
+ private:
+  void put(std::uint64_t cell) {
+    free_.take(cell);
+    places_.cells.push_back(cell);
+  }
+
+  void put_at_random(std::uint64_t count, Random random) {
+    while (count > 0) {
+      if (free_.count() == 0) {  // more instances than cells: every cell may be used once more
+        free_ = FreeCells(cells_);
+        places_.shared += count;
+      }
+      std::vector<std::uint64_t> open;
+      open.reserve(free_.count());
+      for (std::uint64_t c = 0; c < cells_; ++c)
+        if (free_.is_free(c)) open.push_back(c);
+      const std::uint64_t now = std::min<std::uint64_t>(count, open.size());
+      for (std::uint64_t i = 0; i < now; ++i) {
+        std::swap(open[i], open[i + random.below(open.size() - i)]);
+        put(open[i]);
+      }
+      places_.at_random += now;
+      count -= now;
+    }
+  }
+
+  std::uint64_t cells_;
+  FreeCells free_;
+  CellPlaces& places_;
+};
+
+}  // namespace
+
+std::uint64_t cells_a_side(std::uint64_t instances) {
+  auto c = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(instances)));
+  while (c * c < instances) ++c;
+  while (c > 0 && (c - 1) * (c - 1) >= instances) --c;
+  return c;
+}
+
+CellPlaces place_in_cells(std::span<const std::uint64_t> counts, std::uint64_t cells, const Random& random) {
+  CellPlaces places;
+  places.cells.reserve(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
+  Placer placer(cells, places);
+  for (std::size_t t = 0; t < counts.size(); ++t) placer.place(counts[t], random.fork(t));
+  return places;
+}
+
+}  // namespace copse

@@ -1,0 +1,34 @@
+// The placement of the thesis: a square grid with at least as many cells as there are instances, at most one
+// instance a cell, each type walking the grid at its ideal distance with a random margin.
+//
+// Source: digest 000, section 2.4, erratum E5 (the walk begins anew for every type), hazards H26 and H27. The
+// walk keeps a real position, so that types do not bunch up; a cell that is taken gives way to the first free
+// one after it; what passes the last cell goes into random free cells, drawn without replacement. Expected
+// time O(cells).
+#pragma once
+
+#include "lib/formats/random.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace copse {
+
+// A share of the ideal distance, so below a half: the walk never goes backwards.
+inline constexpr double k_walk_margin = 0.45;
+
+// The smallest c with c * c >= instances.
+std::uint64_t cells_a_side(std::uint64_t instances);
+
+struct CellPlaces {
+  std::vector<std::uint64_t> cells;  // of type 0's instances, of type 1's, ...
+  std::uint64_t displaced = 0;       // found their cell taken
+  std::uint64_t at_random = 0;       // were left when the walk had passed the last cell
+  std::uint64_t shared = 0;          // more instances than cells: these share one, and the grid began anew
+};
+
+// Counts are kept whatever they are; `cells` > 0. Type t draws from random.fork(t).
+CellPlaces place_in_cells(std::span<const std::uint64_t> counts, std::uint64_t cells, const Random& random);
+
+}  // namespace copse

@@ -1,0 +1,234 @@
+#include "lib/analysis/ecosystem/populate.h"
+
+#include "lib/analysis/ecosystem/jittered_cells.h"
+#include "lib/analysis/ecosystem/spacing.h"
+#include "lib/analysis/ecosystem/spread.h"
+#include "lib/analysis/ecosystem/tilt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace copse {
+namespace {
+
+// What a type's random numbers are for.
+enum Stream : std::uint64_t { stream_cells = 1 << 20, stream_place, stream_look, stream_clusters };
+
+constexpr int k_tries_in_piece = 30, k_tries_anywhere = 1000, k_failures_in_a_row = 50;
+
+class Planter {
+ public:
+  Planter(std::span<const TypePlan> types, const Ground& ground, const Area& area, const Random& random)
+      : types_(types), ground_(ground), area_(area), random_(random), random_ones_(types.size()) {
+    out_.types.resize(types.size());
+  }
+
+  Result<Population> plant() {
+    plant_in_cells();
+    for (std::size_t t = 0; t < types_.size(); ++t) {
+      if (in_cells(t) || types_[t].count == 0 || types_[t].spacing > 0) continue;
+      if (auto done = spread(t); !done) return std::unexpected(done.error());
+    }
+    if (auto done = space_out(); !done) return std::unexpected(done.error());
+    for (std::size_t t = 0; t < types_.size(); ++t) {
+      out_.types[t].placed = random_ones_[t].size();
+      out_.instances.insert(out_.instances.end(), random_ones_[t].begin(), random_ones_[t].end());
+      for (Instance i : types_[t].manual) {
+        i.type = static_cast<std::uint32_t>(t);
+        out_.instances.push_back(i);
+      }
+    }
+    return std::move(out_);
+  }
+
+ private:
+  bool in_cells(std::size_t t) const {
+    return ground_.covers_all() && !types_[t].rules.limits_anything() && !(types_[t].spacing > 0);
+  }
+
+  Random stream(std::size_t type, std::uint64_t purpose) const { return random_.fork(type).fork(purpose); }
+
+  // What does not depend on the place.
+  double scale_of(std::size_t type, std::uint64_t index, const GroundPlace& at) const {
+    const TypePlan& p = types_[type];
+    if (p.scale_map) {
+      const double v = std::clamp(smooth_at(*p.scale_map, area_, at.x, at.z), 0.0, 1.0);
+      return p.scale.min + (p.scale.max - p.scale.min) * v;
+    }
+    return stream(type, stream_look).fork(index).fork(0).uniform(p.scale.min, p.scale.max);
+  }
+
+  Instance instance(std::size_t type, std::uint64_t index, const GroundPlace& at) const {
+    const TypePlan& p = types_[type];
+    Random look = stream(type, stream_look).fork(index).fork(1);
+    Instance i;
+    i.type = static_cast<std::uint32_t>(type);
+    i.scale = scale_of(type, index, at);
+    const GroundPoint ground = ground_.at(at.x, at.z).value_or(GroundPoint{});
+    i.position = {at.x, ground.height, at.z};
+    const double head = look.uniform(p.head.min, p.head.max), pitch = look.uniform(p.pitch.min, p.pitch.max),
+                 roll = look.uniform(p.roll.min, p.roll.max);
+    i.rotation = with_head(p.tilt_to_ground ? tilt_to(ground.normal) : tilt_of(pitch, roll), head);
+    i.trunk_material = p.trunk_material;
+    i.leaf_material = p.leaf_material;
+    i.motion = p.motion;
+    if (p.tint_map) {
+      const TintMap& m = *p.tint_map;
+      const auto pixel = [](double f, std::uint32_t n) {
+        return static_cast<std::uint32_t>(std::clamp(f * n, 0.0, n - 1.0));
+      };
+      i.tint = m.colours[std::size_t{pixel((at.z - area_.z0) / area_.depth(), m.height)} * m.width +
+                         pixel((at.x - area_.x0) / area_.width(), m.width)];
+    }
+    return i;
+  }
+
+  void plant_in_cells() {
+    std::vector<std::uint64_t> counts(types_.size());
+    for (std::size_t t = 0; t < types_.size(); ++t) counts[t] = in_cells(t) ? types_[t].count : 0;
+    const std::uint64_t total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+    if (total == 0) return;
+    const std::uint64_t side = cells_a_side(total);
+    const CellPlaces places = place_in_cells(counts, side * side, random_.fork(stream_cells));
+    out_.cells = side * side;
+    out_.displaced = places.displaced;
+    out_.in_random_cells = places.at_random;
+    std::uint64_t first = 0;
+    for (std::size_t t = 0; t < types_.size(); ++t) {
+      fill_cells(t, std::span(places.cells).subspan(first, counts[t]), side);
+      first += counts[t];
+    }
+  }
+
+  void fill_cells(std::size_t t, std::span<const std::uint64_t> cells, std::uint64_t side) {
+    random_ones_[t].resize(cells.size());
+    const double w = area_.width() / static_cast<double>(side), d = area_.depth() / static_cast<double>(side);
+    std::vector<std::uint8_t> crowded(cells.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 1024), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        Random random = stream(t, stream_place).fork(i);
+        const double x0 = area_.x0 + static_cast<double>(cells[i] % side) * w;
+        const double z0 = area_.z0 + static_cast<double>(cells[i] / side) * d;
+        const double reach = types_[t].footprint * scale_of(t, i, {x0 + w / 2, z0 + d / 2});
+        crowded[i] = 2 * reach > std::min(w, d);
+        const double mx = std::min(reach, w / 2), mz = std::min(reach, d / 2);
+        const double x = random.uniform(x0 + mx, x0 + w - mx), z = random.uniform(z0 + mz, z0 + d - mz);
+        random_ones_[t][i] = instance(t, i, {x, z});
+      }
+    });
+    out_.types[t].crowded = static_cast<std::uint64_t>(std::count(crowded.begin(), crowded.end(), 1));
+  }
+
+  DensityField field_of(std::size_t t) const {
+    const PlacementRules& r = types_[t].rules;
+    std::uint32_t largest = 0;
+    for (const ValueMap* m : {r.density, r.forbidden, r.share_of, r.distance_to})
+      if (m) largest = std::max({largest, m->width, m->height});
+    const std::uint32_t side = field_side(largest, types_[t].count);
+    return make_field(r, area_, ground_, side, side, stream(t, stream_clusters));
+  }
+
+  std::unexpected<Error> nowhere(std::size_t t) const {
+    return refuse("", fmt::format("{}: there is no place that its maps and rules allow", types_[t].name),
+                  "widen its rules, or set its count to 0");
+  }
+
+  Result<void> spread(std::size_t t) {
+    const DensityField field = field_of(t);
+    const Spreader spreader(field);
+    if (!(spreader.total() > 0)) return nowhere(t);
+    const PlacementTest test(types_[t].rules, area_, ground_);
+    const std::uint64_t count = types_[t].count;
+    random_ones_[t].resize(count);
+    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, count, 1024), [&](const auto& range) {
+      for (std::uint64_t i = range.begin(); i < range.end(); ++i) {
+        Random random = stream(t, stream_place).fork(i);
+        random_ones_[t][i] = instance(t, i, spreader.draw(i, count, test, random));
+      }
+    });
+    return {};
+  }
+
+  // The types that ask for room, the largest first; those placed by hand before all.
+  Result<void> space_out() {
+    std::vector<std::size_t> order;
+    for (std::size_t t = 0; t < types_.size(); ++t) {
+      if (!(types_[t].spacing > 0)) continue;
+      order.push_back(t);
+      for (const Instance& i : types_[t].manual)
+        spacing_.add({i.position.x, i.position.z, types_[t].spacing * i.scale});
+    }
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return types_[a].spacing * types_[a].scale.max > types_[b].spacing * types_[b].scale.max;
+    });
+    for (const std::size_t t : order)
+      if (auto done = space(t); !done) return done;
+    return {};
+  }
+
+  Result<void> space(std::size_t t) {
+    const TypePlan& p = types_[t];
+    if (p.count == 0) return {};
+    const DensityField field = field_of(t);
+    const Spreader spreader(field);
+    if (!(spreader.total() > 0)) return nowhere(t);
+    const PlacementTest test(p.rules, area_, ground_);
+    int failures = 0;
+    // In a random order: along the curve, the last ones would find their piece hemmed in by the first.
+    std::vector<std::uint64_t> pieces(p.count);
+    std::iota(pieces.begin(), pieces.end(), 0);
+    stream(t, stream_place).fork(p.count).shuffle(std::span(pieces));
+    for (const std::uint64_t i : pieces) {
+      if (place_apart(t, i, spreader, test)) {
+        failures = 0;
+        continue;
+      }
+      ++out_.types[t].missing;
+      if (!p.fewer)
+        return refuse("",
+                      fmt::format("{}: {} asked for, no room for more than {} at this spacing", p.name,
+                                  p.count, random_ones_[t].size()),
+                      "lower count or spacing, or set \"fewer\" to take what fits");
+      if (++failures < k_failures_in_a_row) continue;
+      out_.types[t].missing = p.count - random_ones_[t].size();
+      break;
+    }
+    return {};
+  }
+
+  bool place_apart(std::size_t t, std::uint64_t i, const Spreader& spreader, const PlacementTest& test) {
+    Random random = stream(t, stream_place).fork(i);
+    for (int n = 0; n < k_tries_in_piece + k_tries_anywhere; ++n) {
+      const bool own = n < k_tries_in_piece;
+      const GroundPlace at = spreader.draw(own ? i : 0, own ? types_[t].count : 1, test, random);
+      const Disc disc{at.x, at.z, types_[t].spacing * scale_of(t, i, at)};
+      if (!spacing_.is_free(disc)) continue;
+      spacing_.add(disc);
+      random_ones_[t].push_back(instance(t, i, at));
+      return true;
+    }
+    return false;
+  }
+
+  std::span<const TypePlan> types_;
+  const Ground& ground_;
+  Area area_;
+  Random random_;
+  std::vector<std::vector<Instance>> random_ones_;
+  Spacing spacing_;
+  Population out_;
+};
+
+}  // namespace
+
+Result<Population> populate(std::span<const TypePlan> types, const Ground& ground, const Area& area,
+                            const Random& random) {
+  return Planter(types, ground, area, random).plant();
+}
+
+}  // namespace copse

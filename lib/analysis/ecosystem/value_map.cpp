@@ -1,0 +1,39 @@
+#include "lib/analysis/ecosystem/value_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace copse {
+namespace {
+
+// Where `at` lies among `count` pixels, in pixels from the border.
+double pixels(double at, double low, double high, std::uint32_t count) {
+  return high > low ? std::clamp((at - low) / (high - low), 0.0, 1.0) * count : 0;
+}
+
+}  // namespace
+
+double pixel_at(const ValueMap& map, const Area& area, double x, double z) {
+  if (map.values.empty()) return 0;
+  const auto c = std::min(static_cast<std::uint32_t>(pixels(x, area.x0, area.x1, map.width)), map.width - 1);
+  const auto r =
+      std::min(static_cast<std::uint32_t>(pixels(z, area.z0, area.z1, map.height)), map.height - 1);
+  return static_cast<double>(map.values[std::size_t{r} * map.width + c]);
+}
+
+double smooth_at(const ValueMap& map, const Area& area, double x, double z) {
+  if (map.values.empty()) return 0;
+  const double u = std::clamp(pixels(x, area.x0, area.x1, map.width) - 0.5, 0.0, map.width - 1.0);
+  const double v = std::clamp(pixels(z, area.z0, area.z1, map.height) - 0.5, 0.0, map.height - 1.0);
+  const auto c = static_cast<std::uint32_t>(u), r = static_cast<std::uint32_t>(v);
+  const std::uint32_t c1 = std::min(c + 1, map.width - 1), r1 = std::min(r + 1, map.height - 1);
+  const auto value = [&](std::uint32_t col, std::uint32_t row) {
+    return static_cast<double>(map.values[std::size_t{row} * map.width + col]);
+  };
+  const double fu = u - c, fv = v - r;
+  const double near = value(c, r) + fu * (value(c1, r) - value(c, r));
+  const double far = value(c, r1) + fu * (value(c1, r1) - value(c, r1));
+  return near + fv * (far - near);
+}
+
+}  // namespace copse

@@ -1,0 +1,24 @@
+// The sections of .eco files that are plain arrays, in file order: writer and reader go by this one list.
+#pragma once
+
+#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem_header.h"
+
+#include <cstdint>
+#include <string_view>
+
+namespace copse {
+
+// Calls visit(name, array, count): `counts` and the head of `eco` give the counts that a file must have.
+template <class EcosystemRef, class Visit>
+void for_each_array(EcosystemRef& eco, const EcosystemCounts& counts, Visit&& visit) {
+  const std::uint64_t vertices = eco.terrain.vertex_count();
+  visit("EHGT", eco.terrain.heights, counts.regular_terrain ? vertices : 0);
+  visit("EPNT", eco.terrain.points, counts.regular_terrain ? 0 : vertices);
+  visit("EBOX", eco.boxes, std::uint64_t{counts.box_nodes(eco.depth)});
+  visit("EBLK", eco.blocks, std::uint64_t{counts.blocks});
+  visit("EINS", eco.packed, std::uint64_t{counts.exact ? 0 : counts.instances});
+  visit("EINX", eco.exact, std::uint64_t{counts.exact ? counts.instances : 0});
+}
+
+}  // namespace copse

@@ -1,0 +1,124 @@
+#include "lib/analysis/ecosystem/density_field.h"
+
+#include "tests/ecosystem/grounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+const Area k_area{0, 0, 64, 64};
+
+struct World {
+  Terrain terrain = regular_terrain(
+      65, 64, [](double x, double) { return x < 32 ? 0 : x - 32; });  // 45 degrees in the east
+  Ground ground{terrain};
+  DensityField field(const PlacementRules& rules, std::uint32_t side = 64) const {
+    return make_field(rules, k_area, ground, side, side, Random(1));
+  }
+};
+
+TEST(DensityField, WithoutRulesEveryCellIsAsLikely) {
+  EXPECT_FALSE(PlacementRules{}.limits_anything());
+  const DensityField f = World().field({});
+  EXPECT_EQ(f.total(), 64 * 64);
+}
+
+TEST(DensityField, SlopeAndAltitudeAreSharp) {
+  const World world;
+  PlacementRules steep;
+  steep.slope = {0, 30};
+  EXPECT_EQ(world.field(steep).total(), 32 * 64);
+  steep.slope = {44, 46};
+  EXPECT_EQ(world.field(steep).total(), 32 * 64);
+  PlacementRules high;
+  high.altitude = {16, 100};
+  EXPECT_EQ(world.field(high).total(), 16 * 64);
+  EXPECT_TRUE(high.limits_anything());
+}
+
+TEST(DensityField, ForbiddenPixelsAndDensitiesWeigh) {
+  const World world;
+  const ValueMap forbidden{2, 1, {0, 1}}, density{1, 2, {3, 1}};
+  PlacementRules rules;
+  rules.forbidden = &forbidden;
+  rules.density = &density;
+  EXPECT_EQ(world.field(rules).total(), 32 * (32 * 3 + 32 * 1));
+}
+
+TEST(DensityField, SharesOfAMixAddUpToTheDensity) {
+  const World world;
+  const ValueMap density{1, 1, {2}}, oak{2, 1, {0.25f, 0}}, pine{2, 1, {0.75f, 0.5f}}, none{1, 1, {0}};
+  PlacementRules a, b;
+  a.density = b.density = &density;
+  a.share_total = b.share_total = {&oak, &pine};
+  a.share_of = &oak;
+  b.share_of = &pine;
+  const double total = world.field({.density = &density}).total();
+  EXPECT_DOUBLE_EQ(world.field(a).total(), total / 8);
+  EXPECT_DOUBLE_EQ(world.field(a).total() + world.field(b).total(), total);
+  a.share_total = {&none};
+  EXPECT_EQ(world.field(a).total(), 0);  // a mix of nothing is nothing
+}
+
+TEST(DensityField, ClustersReachNoFartherThanTheirRadius) {
+  const World world;
+  PlacementRules rules;
+  rules.clusters = {.count = 1, .radius = 10};
+  const DensityField f = world.field(rules, 128);
+  double cells = 0;
+  for (const double w : f.weights) cells += w > 0;
+  EXPECT_LE(cells / 4, 3.1416 * 100 * 1.05);
+  EXPECT_GT(f.total(), 0);
+}
+
+// Brute force is the judge of the distance transform.
+TEST(DensityField, DistancesAreExactOnPixelsThatAreNotSquare) {
+  Random random(8);
+  ValueMap map{23, 17, std::vector<float>(23 * 17)};
+  for (float& v : map.values) v = random.chance(0.02) ? 1.0f : 0.0f;
+  map.values[40] = 1;
+  const Area area{0, 0, 46, 51};  // pixels of 2 x 3 m
+  const ValueMap d = distance_map(map, area);
+  for (int r = 0; r < 17; ++r)
+    for (int c = 0; c < 23; ++c) {
+      double best = 1e300;
+      for (int y = 0; y < 17; ++y)
+        for (int x = 0; x < 23; ++x)
+          if (map.values[static_cast<std::size_t>(y * 23 + x)] >= 0.5f)
+            best = std::min(best, std::hypot(2.0 * (x - c), 3.0 * (y - r)));
+      EXPECT_NEAR(d.values[static_cast<std::size_t>(r * 23 + c)], best, 1e-5);
+    }
+}
+
+TEST(DensityField, DistanceToNothingIsInfinite) {
+  const ValueMap map{3, 3, std::vector<float>(9)};
+  for (const float v : distance_map(map, k_area).values) EXPECT_TRUE(std::isinf(v));
+  const World world;
+  PlacementRules rules;
+  rules.distance_to = &map;
+  rules.distance = {5, 100};
+  EXPECT_EQ(world.field(rules).total(), 0);
+  rules.distance = {5};  // at least 5 m from what is not there
+  EXPECT_EQ(world.field(rules).total(), 64 * 64);
+}
+
+TEST(DensityField, NothingStandsWhereThereIsNoGround) {
+  const Terrain half = free_terrain(2, 2, {{0, 0, 0}, {0, 0, 0}, {0, 0, 64}, {64, 0, 64}});
+  const Ground ground(half);
+  const DensityField f = make_field({}, k_area, ground, 64, 64, Random(1));
+  EXPECT_NEAR(f.total(), 64 * 64 / 2.0, 33);
+}
+
+TEST(DensityField, TheGridFollowsMapsAndCountsUpToALimit) {
+  EXPECT_EQ(field_side(0, 1), 64u);
+  EXPECT_EQ(field_side(500, 1), 1000u);
+  EXPECT_EQ(field_side(0, 250000), 500u);
+  EXPECT_EQ(field_side(4096, 1), k_most_field_cells);
+}
+
+}  // namespace
+}  // namespace copse

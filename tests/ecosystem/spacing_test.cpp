@@ -1,0 +1,53 @@
+#include "lib/analysis/ecosystem/spacing.h"
+
+#include "lib/formats/random.h"
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+bool overlaps(const Disc& a, const Disc& b) {
+  const double dx = a.x - b.x, dz = a.z - b.z, r = a.radius + b.radius;
+  return dx * dx + dz * dz < r * r;
+}
+
+TEST(Spacing, AgreesWithTestingEveryDisc) {
+  Random random(1);
+  Spacing spacing;
+  std::vector<Disc> inside;
+  for (int i = 0; i < 4000; ++i) {
+    // Radii over five decades, in any order.
+    const Disc d{random.uniform(-50, 50), random.uniform(-50, 50),
+                 0.001 * static_cast<double>(1 << random.below(12))};
+    bool free = true;
+    for (const Disc& other : inside) free &= !overlaps(d, other);
+    EXPECT_EQ(spacing.is_free(d), free);
+    if (!free) continue;
+    spacing.add(d);
+    inside.push_back(d);
+  }
+  EXPECT_EQ(spacing.size(), inside.size());
+  EXPECT_GT(inside.size(), 500u);
+}
+
+TEST(Spacing, TouchingIsAllowedAndPointsNeedNoRoom) {
+  Spacing spacing;
+  spacing.add({0, 0, 1});
+  EXPECT_TRUE(spacing.is_free({3, 0, 2}));
+  EXPECT_FALSE(spacing.is_free({3, 0, 2.001}));
+  spacing.add({9, 9, 0});
+  EXPECT_TRUE(spacing.is_free({9, 9, 0}));
+}
+
+TEST(Spacing, AGiantAmongSeedlingsIsFoundFromFarAway) {
+  Spacing spacing;
+  spacing.add({0, 0, 100});
+  for (int i = 0; i < 1000; ++i) {
+    const double x = i * 0.2;
+    EXPECT_EQ(spacing.is_free({x, 0, 0.05}), x >= 100.05);
+  }
+}
+
+}  // namespace
+}  // namespace copse

@@ -1,0 +1,107 @@
+#include "lib/formats/instance_codec.h"
+
+#include "lib/formats/random.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+Quaternion random_rotation(Random& random) {
+  Quaternion q{};
+  double square = 0;
+  do {
+    square = 0;
+    for (double& part : q) part = random.uniform(-1, 1), square += part * part;
+  } while (square > 1 || square < 0.01);
+  for (double& part : q) part /= std::sqrt(square);
+  return q;
+}
+
+TEST(InstanceCodec, RotationsComeBackWithinTheBound) {
+  Random random(1);
+  double worst = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const Quaternion q = random_rotation(random), back = unpack_rotation(pack_rotation(q));
+    double plus = 0, minus = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      plus += std::pow(q[k] + back[k], 2), minus += std::pow(q[k] - back[k], 2);
+    worst = std::max(worst, 2 * std::sqrt(std::min(plus, minus)));
+  }
+  EXPECT_LT(worst, k_packed_rotation_error);
+  EXPECT_GT(worst, 0.4 * k_packed_rotation_error);  // the bound is no fantasy
+}
+
+TEST(InstanceCodec, QuarterTurnsAndNoTurnAreExact) {
+  EXPECT_EQ(unpack_rotation(pack_rotation({0, 0, 0, 1})), (Quaternion{0, 0, 0, 1}));
+  EXPECT_EQ(unpack_rotation(pack_rotation({0, -1, 0, 0})), (Quaternion{0, 1, 0, 0}));
+  const Quaternion q = unpack_rotation(pack_rotation({0, std::sqrt(0.5), 0, std::sqrt(0.5)}));
+  EXPECT_NEAR(q[1], q[3], 1e-12);
+}
+
+TEST(InstanceCodec, StepsArePowersOfTwoThatHoldTheExtent) {
+  EXPECT_EQ(position_step(0), 0);
+  EXPECT_EQ(position_step(-1), 0);
+  EXPECT_EQ(position_step((1 << 21) - 1), 1);
+  EXPECT_EQ(position_step(1 << 21), 2);
+  Random random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const double extent = std::ldexp(random.uniform(), static_cast<int>(random.below(60)) - 30);
+    const double step = position_step(extent);
+    EXPECT_GE(step * 2097151, extent);
+    EXPECT_LT(step * 2097151, 2 * extent * 1.000001);
+    int exponent = 0;
+    EXPECT_EQ(std::frexp(step, &exponent), 0.5);
+  }
+  EXPECT_GT(position_step(1e-300), 0);  // float32's smallest
+}
+
+TEST(InstanceCodec, PositionsComeBackWithinHalfAStepAndThenExactly) {
+  Random random(3);
+  InstanceBlock block;
+  block.origin = {1e6, -20, 3};
+  block.step = {0x1p-16f, 0x1p-18f, 0};
+  for (int i = 0; i < 1000; ++i) {
+    const Double3 p = block.origin + Double3{random.uniform(0, 30), random.uniform(0, 7), 0};
+    const Double3 back = unpack_position(pack_position(p, block), block);
+    EXPECT_LE(std::abs(back.x - p.x), 0x1p-17 + 1e-9);
+    EXPECT_LE(std::abs(back.y - p.y), 0x1p-19 + 1e-12);
+    EXPECT_EQ(back.z, 3);
+    EXPECT_EQ(unpack_position(pack_position(back, block), block), back);
+  }
+}
+
+TEST(InstanceCodec, TheEndsOfAScaleAreExact) {
+  TreeType t;
+  t.scale_min = 0.75f, t.scale_max = 1.25f;
+  EXPECT_EQ(unpack_scale(pack_scale(0.75, t), t), 0.75);
+  EXPECT_EQ(unpack_scale(pack_scale(1.25, t), t), 1.25);
+  EXPECT_NEAR(unpack_scale(pack_scale(1, t), t), 1, 0.5 / 65535 / 2);
+  t.scale_max = 0.75f;
+  EXPECT_EQ(unpack_scale(pack_scale(0.75, t), t), 0.75);
+}
+
+TEST(InstanceCodec, ATransformedBoxIsThatOfItsEightCorners) {
+  Random random(4);
+  for (int i = 0; i < 2000; ++i) {
+    const FloatBox box{{-1, -0.5f, -3}, {2, 7, 0.25f}};
+    const Instance instance{.position = {random.uniform(-9, 9), 5, 1e3},
+                            .rotation = random_rotation(random),
+                            .scale = random.uniform(0.1, 4)};
+    DoubleBox corners;
+    for (int c = 0; c < 8; ++c) {
+      const Double3 p{double{c & 1 ? box.max.x : box.min.x}, double{c & 2 ? box.max.y : box.min.y},
+                      double{c & 4 ? box.max.z : box.min.z}};
+      corners.grow(instance.position + rotate(instance.rotation, p * instance.scale));
+    }
+    const DoubleBox fast = transformed(box, instance);
+    EXPECT_LT(distance(fast.min, corners.min), 1e-11);
+    EXPECT_LT(distance(fast.max, corners.max), 1e-11);
+  }
+  EXPECT_TRUE(transformed(FloatBox{}, Instance{}).empty());
+}
+
+}  // namespace
+}  // namespace copse

@@ -1,0 +1,262 @@
+#include "tools/ecogen/build.h"
+
+#include "lib/analysis/ecosystem/arrange.h"
+#include "lib/analysis/ecosystem/populate.h"
+#include "lib/analysis/ecosystem/spread.h"
+#include "lib/analysis/ecosystem/tilt.h"
+#include "tools/ecogen/inputs.h"
+#include "tools/ecogen/leave_out.h"
+#include "tools/ecogen/measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace copse::ecogen {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum Stream : std::uint64_t { stream_terrain = 1, stream_plants = 2 };
+
+Area area_of(const Scene& scene, const Ground& ground) {
+  return scene.area.value_or(Area{ground.x0(), ground.z0(), ground.x1(), ground.z1()});
+}
+
+Result<void> check_area(const Scene& scene, const Ground& ground, const fs::path& document) {
+  if (!scene.area) return {};
+  const Area& a = *scene.area;
+  if (a.x0 >= ground.x0() && a.z0 >= ground.z0() && a.x1 <= ground.x1() && a.z1 <= ground.z1()) return {};
+  return refuse(
+      document.string(), "area: reaches out of the terrain",
+      fmt::format("keep it within {}, {}, {}, {}", ground.x0(), ground.z0(), ground.x1(), ground.z1()));
+}
+
+// Errors from the libraries know places in the document, not its name.
+std::unexpected<Error> in_file(Error error, const fs::path& document) {
+  if (error.file.empty()) error.file = document.string();
+  return std::unexpected(std::move(error));
+}
+
+double crown_radius(const FloatBox& box) {
+  if (box.empty()) return 0;
+  return std::max({std::abs(box.min.x), std::abs(box.max.x), std::abs(box.min.z), std::abs(box.max.z)});
+}
+
+Instance instance_of(const PlantedSource& p, const TypeSource& type, const Ground& ground) {
+  Instance i;
+  const auto here = ground.at(p.x, p.z);
+  i.position = {p.x, p.y.value_or(here ? here->height : 0), p.z};
+  const Quaternion tilt = tilt_of(p.pitch, p.roll);
+  const bool upright = p.pitch == 0 && p.roll == 0;
+  i.rotation = with_head(upright && type.tilt_to_ground && here ? tilt_to(here->normal) : tilt, p.head);
+  i.scale = p.scale;
+  i.trunk_material = p.trunk_material;
+  i.leaf_material = p.leaf_material;
+  i.motion = p.motion;
+  i.tint = p.tint;
+  return i;
+}
+
+class Builder {
+ public:
+  Builder(const Scene& scene, const BuildOptions& options, Context& context)
+      : scene_(scene), options_(options), context_(context), inputs_(context), random_(scene.seed) {}
+
+  Result<Built> build() {
+    if (auto done = make_ground(); !done) return in_file(done.error(), options_.document);
+    const Ground ground(built_.eco.terrain);
+    if (auto done = check_area(scene_, ground, options_.document); !done)
+      return std::unexpected(done.error());
+    if (auto done = read_trees(); !done) return std::unexpected(done.error());
+    if (auto done = plan_types(ground); !done) return std::unexpected(done.error());
+    if (auto done = share_mixes(ground); !done) return in_file(done.error(), options_.document);
+    auto population = plant(ground);
+    if (!population) return in_file(population.error(), options_.document);
+    tell_population(*population);
+    built_.eco.materials = scene_.materials;
+    built_.eco.seed = scene_.seed;
+    for (const fs::path& texture : scene_.textures)
+      built_.eco.textures.push_back({.uri = texture.string(), .mime = "", .bytes = {}});
+    if (auto done = drop_unused(*population); !done) return std::unexpected(done.error());
+    if (auto done = lay_out(*population, ground); !done) return in_file(done.error(), options_.document);
+    tell_tilts(*population, ground, context_);
+    tell_feet(built_.eco, ground, context_);
+    return std::move(built_);
+  }
+
+ private:
+  Result<void> make_ground() {
+    Stage stage = context_.stage("terrain");
+    TerrainPlan plan = scene_.terrain;
+    auto heights = inputs_.map(scene_.height_map);
+    if (!heights) return std::unexpected(heights.error());
+    plan.height_map = *heights;
+    auto terrain = make_terrain(plan, random_.fork(stream_terrain));
+    if (!terrain) return std::unexpected(terrain.error());
+    Terrain& t = built_.eco.terrain = std::move(*terrain);
+    t.material = scene_.terrain_material;
+    t.texture_size = static_cast<float>(scene_.texture_size);
+    // Boxes count from the middle of the terrain, so that float32 holds them as well far from the origin.
+    DoubleBox box;
+    for (std::uint32_t r = 0; r < t.rows; ++r)
+      for (std::uint32_t c = 0; c < t.columns; ++c) box.grow(t.vertex(c, r));
+    const Double3 centre = box.centre();
+    built_.eco.origin = {std::floor(centre.x), std::floor(centre.y), std::floor(centre.z)};
+    built_.eco.bounds = round_outward({box.min - built_.eco.origin, box.max - built_.eco.origin});
+    stage.items(t.vertex_count(), "vertices");
+    return {};
+  }
+
+  Result<void> read_trees() {
+    Stage stage = context_.stage("trees");
+    for (const TypeSource& source : scene_.types) {
+      auto type = read_type(source, context_);
+      if (!type) return std::unexpected(type.error());
+      type->uri = source.tree.string();
+      built_.eco.types.push_back(std::move(*type));
+    }
+    stage.items(scene_.types.size(), "trees");
+    return {};
+  }
+
+  Result<void> plan_types(const Ground& ground) {
+    Stage stage = context_.stage("maps");
+    plans_.reserve(scene_.types.size());
+    for (std::size_t i = 0; i < scene_.types.size(); ++i) {
+      const TypeSource& s = scene_.types[i];
+      TypePlan p;
+      p.name = fmt::format("types[{}] ({})", i, s.name);
+      p.count = s.count;
+      p.head = s.head, p.pitch = s.pitch, p.roll = s.roll, p.scale = s.scale;
+      p.tilt_to_ground = s.tilt_to_ground;
+      p.trunk_material = s.trunk_material, p.leaf_material = s.leaf_material, p.motion = s.motion;
+      p.rules.slope = s.slope, p.rules.altitude = s.altitude, p.rules.distance = s.distance;
+      p.rules.clusters = s.clusters;
+      p.footprint = s.crown_footprint ? crown_radius(built_.eco.types[i].bounds) : s.footprint;
+      p.spacing = s.spacing;
+      p.fewer = s.fewer;
+      for (const PlantedSource& planted : s.planted) p.manual.push_back(instance_of(planted, s, ground));
+      const std::pair<const std::optional<MapSource>*, const ValueMap**> maps[] = {
+          {&s.scale_map, &p.scale_map},
+          {&s.density, &p.rules.density},
+          {&s.forbidden, &p.rules.forbidden},
+          {&s.distance_map, &p.rules.distance_to}};
+      for (const auto& [source, target] : maps) {
+        auto map = inputs_.map(*source);
+        if (!map) return std::unexpected(map.error());
+        *target = *map;
+      }
+      auto tint = inputs_.tint(s.tint_map);
+      if (!tint) return std::unexpected(tint.error());
+      p.tint_map = *tint;
+      plans_.push_back(std::move(p));
+    }
+    return {};
+  }
+
+  // The types of a mix share its count as their maps share its density.
+  Result<void> share_mixes(const Ground& ground) {
+    const Area area = area_of(scene_, ground);
+    for (std::size_t m = 0; m < scene_.mixes.size(); ++m) {
+      const MixSource& mix = scene_.mixes[m];
+      auto density = inputs_.map(mix.density);
+      if (!density) return std::unexpected(density.error());
+      std::vector<const ValueMap*> shares;
+      std::uint32_t largest = *density ? std::max((*density)->width, (*density)->height) : 0;
+      for (const MixSource::Part& part : mix.parts) {
+        auto share = inputs_.map(part.share);
+        if (!share) return std::unexpected(share.error());
+        shares.push_back(*share);
+        largest = std::max({largest, (*share)->width, (*share)->height});
+      }
+      const std::uint32_t side = field_side(largest, mix.count);
+      std::vector<double> weights;
+      for (std::size_t i = 0; i < mix.parts.size(); ++i) {
+        PlacementRules& rules = plans_[mix.parts[i].type].rules;
+        rules.density = *density;
+        rules.share_of = shares[i];
+        rules.share_total = shares;
+        weights.push_back(make_field(rules, area, ground, side, side, random_).total());
+      }
+      const auto counts = apportion(mix.count, weights);
+      for (std::size_t i = 0; i < counts.size(); ++i) plans_[mix.parts[i].type].count = counts[i];
+      if (mix.count > 0 && *std::max_element(weights.begin(), weights.end()) <= 0)
+        return refuse("", fmt::format("mixes[{}]: there is no place that its maps and rules allow", m),
+                      "widen them, or set its count to 0");
+    }
+    return {};
+  }
+
+  Result<Population> plant(const Ground& ground) {
+    Stage stage = context_.stage("plant");
+    auto population = populate(plans_, ground, area_of(scene_, ground), random_.fork(stream_plants));
+    if (population) stage.items(population->instances.size(), "instances");
+    return population;
+  }
+
+  void tell_population(const Population& p) {
+    Table table{"types", {"type", "instances", "reach out of their cell", "did not fit"}, {}};
+    std::uint64_t crowded = 0;
+    for (std::size_t t = 0; t < plans_.size(); ++t) {
+      const TypeCounts& c = p.types[t];
+      crowded += c.crowded;
+      table.rows.push_back({scene_.types[t].name, std::to_string(c.placed + plans_[t].manual.size()),
+                            std::to_string(c.crowded), std::to_string(c.missing)});
+      if (c.missing > 0)
+        context_.warn(fmt::format("{}: {} of {} did not fit at this spacing", plans_[t].name, c.missing,
+                                  plans_[t].count));
+    }
+    context_.report().tables.push_back(std::move(table));
+    if (p.cells > 0)
+      context_.report().tables.push_back({"jittered cells",
+                                          {"cells", "instances moved on to a free cell",
+                                           "instances in random cells", "instances larger than their cell"},
+                                          {{std::to_string(p.cells), std::to_string(p.displaced),
+                                            std::to_string(p.in_random_cells), std::to_string(crowded)}}});
+  }
+
+  Result<void> drop_unused(Population& population) {
+    Stage stage = context_.stage("leave out");
+    leave_out(population.instances, built_);
+    return resolve_files(options_, built_, context_);
+  }
+
+  Result<void> lay_out(const Population& population, const Ground& ground) {
+    Stage stage = context_.stage("arrange");
+    stage.items(population.instances.size(), "instances");
+    const Area area = area_of(scene_, ground);
+    // By hand an instance may float: then its y is meant as it is.
+    bool floats = false;
+    for (const TypeSource& t : scene_.types)
+      for (const PlantedSource& p : t.planted) floats |= p.y.has_value();
+    const ArrangeOptions options{.exact = scene_.exact,
+                                 .depth = scene_.depth,
+                                 .area = {area.x0, area.z0, area.x1, area.z1},
+                                 .ground = floats ? nullptr : &ground};
+    if (auto done = arrange(population.instances, options, built_.eco); !done) return done;
+    const Ecosystem& e = built_.eco;
+    auto& errors = context_.report().errors;
+    errors.push_back({"stored position", e.position_error, "m", e.position_error, {}, {}, "as placed"});
+    errors.push_back({"stored rotation", e.rotation_error, "rad", e.rotation_error, {}, {}, "as placed"});
+    errors.push_back({"stored scale", e.scale_error, "ratio", e.scale_error, {}, {}, "as placed"});
+    return {};
+  }
+
+  const Scene& scene_;
+  const BuildOptions& options_;
+  Context& context_;
+  Inputs inputs_;
+  Random random_;
+  std::vector<TypePlan> plans_;
+  Built built_;
+};
+
+}  // namespace
+
+Result<Built> build(const Scene& scene, const BuildOptions& options, Context& context) {
+  return Builder(scene, options, context).build();
+}
+
+}  // namespace copse::ecogen

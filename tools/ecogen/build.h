@@ -1,0 +1,35 @@
+// From a scene to an ecosystem: terrain, trees, instances, blocks.
+#pragma once
+
+#include "lib/formats/ecosystem.h"
+#include "lib/formats/result.h"
+#include "tools/common/tool.h"
+#include "tools/ecogen/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace copse::ecogen {
+
+struct BuildOptions {
+  std::filesystem::path folder;  // of the output: names in it are relative to this
+  std::filesystem::path document;
+  bool pack = false;  // trees and textures go into the file
+};
+
+// What was left out, for the report: "material 'bark'", why, and the bytes that this saved.
+struct LeftOut {
+  std::string what, why;
+  std::uint64_t bytes = 0;
+};
+
+struct Built {
+  Ecosystem eco;
+  std::vector<LeftOut> left_out;
+};
+
+// Fills the report of `context` as it goes.
+Result<Built> build(const Scene& scene, const BuildOptions& options, Context& context);
+
+}  // namespace copse::ecogen

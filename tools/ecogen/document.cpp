@@ -1,0 +1,122 @@
+#include "tools/ecogen/document.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <set>
+#include <variant>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace copse::ecogen {
+namespace {
+
+constexpr int k_levels = 64;
+
+// Line and column of a byte, both from 1.
+std::string place_of(std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, std::min(byte, text.size()));
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::size_t begin = before.rfind('\n');
+  return fmt::format("line {} column {}", line,
+                     before.size() - (begin == std::string_view::npos ? 0 : begin + 1) + 1);
+}
+
+// "syntax error while parsing value - unexpected ..." without the library's own prefix.
+std::string reason_of(const std::string& what) {
+  const std::size_t at = what.find("syntax error");
+  std::string reason = at == std::string::npos ? what : what.substr(at);
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  return reason;
+}
+
+using Step = std::variant<std::string, std::size_t>;
+
+std::optional<std::vector<Step>> steps_of(std::string_view path) {
+  std::vector<Step> steps;
+  while (!path.empty()) {
+    if (path.front() == '[') {
+      const std::size_t end = path.find(']');
+      std::size_t index = 0;
+      if (end == std::string_view::npos) return std::nullopt;
+      const auto [rest, error] = std::from_chars(path.data() + 1, path.data() + end, index);
+      if (error != std::errc{} || rest != path.data() + end) return std::nullopt;
+      steps.emplace_back(index);
+      path.remove_prefix(end + 1);
+    } else {
+      const std::size_t end = std::min(path.find_first_of(".["), path.size());
+      if (end == 0) return std::nullopt;
+      steps.emplace_back(std::string(path.substr(0, end)));
+      path.remove_prefix(end);
+    }
+    if (!path.empty() && path.front() == '.') {
+      path.remove_prefix(1);
+      if (path.empty()) return std::nullopt;
+    }
+  }
+  if (steps.empty()) return std::nullopt;
+  return steps;
+}
+
+// What the step leads to, null when that does not exist; the last step of an edit may make a key.
+Json* follow(Json& from, const Step& step, bool may_make) {
+  if (const auto* key = std::get_if<std::string>(&step)) {
+    if (!from.is_object() || (!may_make && !from.contains(*key))) return nullptr;
+    return &from[*key];
+  }
+  const std::size_t index = std::get<std::size_t>(step);
+  return from.is_array() && index < from.size() ? &from[index] : nullptr;
+}
+
+}  // namespace
+
+Result<Json> parse_document(std::string_view text, const std::string& file) {
+  std::vector<std::set<std::string>> keys;
+  std::string twice;
+  bool deep = false;
+  const Json::parser_callback_t watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    if (depth > k_levels) deep = true;
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second &&
+        twice.empty())
+      twice = parsed.get<std::string>();
+    return !deep;
+  };
+  try {
+    Json document = Json::parse(text, watch, true, true);
+    if (deep)
+      return refuse(file, fmt::format("is nested more than {} levels deep", k_levels),
+                    "no ecosystem needs that");
+    if (!twice.empty())
+      return refuse(file, fmt::format("the key '{}' stands twice in one object", twice), "keep one of them");
+    return document;
+  } catch (const nlohmann::json::parse_error& e) {
+    return refuse(file,
+                  fmt::format("{}: {}", place_of(text, e.byte == 0 ? 0 : e.byte - 1), reason_of(e.what())),
+                  "mend the JSON");
+  }
+}
+
+Result<void> edit(Json& document, const std::string& assignment) {
+  const std::size_t equal = assignment.find('=');
+  const auto usage = [&](const std::string& what) {
+    return fail(Fault::usage, "", fmt::format("--edit '{}': {}", assignment, what),
+                "write PATH=VALUE, such as types[0].count=500");
+  };
+  if (equal == std::string::npos) return usage("there is no '='");
+  const auto steps = steps_of(std::string_view(assignment).substr(0, equal));
+  if (!steps) return usage("this is no path");
+  Json* at = &document;
+  for (std::size_t i = 0; i < steps->size(); ++i) {
+    at = follow(*at, (*steps)[i], i + 1 == steps->size());
+    if (!at) return usage("there is nothing of this path in the file");
+  }
+  const std::string value = assignment.substr(equal + 1);
+  Json parsed = Json::parse(value, nullptr, false);
+  *at = parsed.is_discarded() ? Json(value) : std::move(parsed);
+  return {};
+}
+
+}  // namespace copse::ecogen

@@ -1,0 +1,34 @@
+// The files that a scene names, read once each: maps, tints, trees.
+#pragma once
+
+#include "lib/analysis/ecosystem/populate.h"
+#include "lib/formats/ecosystem.h"
+#include "tools/common/tool.h"
+#include "tools/ecogen/scene.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace copse::ecogen {
+
+class Inputs {
+ public:
+  explicit Inputs(Context& context) : context_(context) {}
+
+  // They live as long as this does.
+  Result<const ValueMap*> map(const MapSource& source);
+  Result<const TintMap*> tint(const std::filesystem::path& file);
+  Result<const ValueMap*> map(const std::optional<MapSource>& source);  // null when there is none
+
+ private:
+  Context& context_;
+  std::map<MapSource, std::unique_ptr<ValueMap>> maps_;
+  std::map<std::filesystem::path, std::unique_ptr<TintMap>> tints_;
+};
+
+// The header alone of a tree: its box and the hash of its file.
+Result<TreeType> read_type(const TypeSource& source, Context& context);
+
+}  // namespace copse::ecogen

@@ -1,0 +1,136 @@
+#include "tools/ecogen/leave_out.h"
+
+#include "lib/formats/mapped_file.h"
+#include "lib/formats/tree_file.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace copse::ecogen {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::uint64_t size_of(const fs::path& file) {
+  std::error_code error;
+  const auto size = fs::file_size(file, error);
+  return error ? 0 : size;
+}
+
+// New numbers of what is kept, none for what goes; `elements` keeps the rest in order.
+template <class T>
+std::vector<std::uint32_t> keep(std::vector<T>& elements, const std::vector<bool>& used) {
+  std::vector<std::uint32_t> number(elements.size(), k_none);
+  std::vector<T> kept;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (!used[i]) continue;
+    number[i] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(std::move(elements[i]));
+  }
+  elements = std::move(kept);
+  return number;
+}
+
+void mark(std::vector<bool>& used, std::uint32_t index) {
+  if (index != k_none) used[index] = true;
+}
+
+void drop_types(std::vector<Instance>& instances, Built& built) {
+  std::vector<bool> used(built.eco.types.size());
+  for (const Instance& i : instances) used[i.type] = true;
+  for (std::size_t t = 0; t < used.size(); ++t)
+    if (!used[t])
+      built.left_out.push_back({fmt::format("type '{}'", built.eco.types[t].name), "it has no instances",
+                                size_of(built.eco.types[t].uri)});
+  const auto number = keep(built.eco.types, used);
+  for (Instance& i : instances) i.type = number[i.type];
+}
+
+void drop_materials(std::vector<Instance>& instances, Built& built) {
+  Ecosystem& e = built.eco;
+  std::vector<bool> used(e.materials.size());
+  mark(used, e.terrain.material);
+  for (const Instance& i : instances) mark(used, i.trunk_material), mark(used, i.leaf_material);
+  for (std::size_t m = 0; m < used.size(); ++m)
+    if (!used[m])
+      built.left_out.push_back({fmt::format("material '{}'", e.materials[m].name), "nothing is made of it",
+                                88 + e.materials[m].name.size()});
+  const auto number = keep(e.materials, used);
+  const auto renumber = [&](std::uint32_t& m) {
+    if (m != k_none) m = number[m];
+  };
+  renumber(e.terrain.material);
+  for (Instance& i : instances) renumber(i.trunk_material), renumber(i.leaf_material);
+}
+
+void drop_textures(Built& built) {
+  Ecosystem& e = built.eco;
+  std::vector<bool> used(e.textures.size());
+  for (const Material& m : e.materials) mark(used, m.texture);
+  for (std::size_t t = 0; t < used.size(); ++t)
+    if (!used[t])
+      built.left_out.push_back({fmt::format("texture {}", e.textures[t].uri),
+                                "no material that is used has it", size_of(e.textures[t].uri)});
+  const auto number = keep(e.textures, used);
+  for (Material& m : e.materials)
+    if (m.texture != k_none) m.texture = number[m.texture];
+}
+
+std::string relative_name(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  const fs::path from = fs::absolute(folder.empty() ? "." : folder, error).lexically_normal();
+  return fs::absolute(file, error).lexically_normal().lexically_proximate(from).generic_string();
+}
+
+// The tree's file without what the scene cannot show; sections that are unknown here are kept as they are.
+Result<std::vector<std::uint8_t>> packed_tree(const TreeType& type, Built& built) {
+  const auto file = TreeFile::open(type.uri);
+  if (!file) return std::unexpected(file.error());
+  ContainerWriter writer(file->container());
+  std::uint64_t saved = 0;
+  if (const SectionInfo* provenance = file->container().find("PROV")) {
+    saved += provenance->stored_size;
+    writer.remove("PROV");
+  }
+  if (saved > 0)
+    built.left_out.push_back({fmt::format("provenance of {}", type.uri), "no frame shows it", saved});
+  return writer.finish();
+}
+
+}  // namespace
+
+void leave_out(std::vector<Instance>& instances, Built& built) {
+  drop_types(instances, built);
+  drop_materials(instances, built);
+  drop_textures(built);
+}
+
+Result<void> resolve_files(const BuildOptions& options, Built& built, Context& context) {
+  for (TreeType& type : built.eco.types) {
+    if (options.pack) {
+      auto bytes = packed_tree(type, built);
+      if (!bytes) return std::unexpected(bytes.error());
+      type.packed = std::move(*bytes);
+      type.uri.clear();
+    } else {
+      type.uri = relative_name(type.uri, options.folder);
+    }
+  }
+  for (Texture& texture : built.eco.textures) {
+    const fs::path path = texture.uri;
+    const auto file = MappedFile::open(path);
+    if (!file) return std::unexpected(file.error());
+    context.read(path, true);
+    if (options.pack) {
+      texture.bytes.assign(file->bytes().begin(), file->bytes().end());
+      texture.uri.clear();
+    } else {
+      texture.uri = relative_name(path, options.folder);
+    }
+  }
+  return {};
+}
+
+}  // namespace copse::ecogen

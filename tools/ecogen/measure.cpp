@@ -1,0 +1,67 @@
+#include "tools/ecogen/measure.h"
+
+#include "lib/analysis/ecosystem/tilt.h"
+#include "lib/formats/instance_codec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace copse::ecogen {
+namespace {
+
+constexpr std::size_t k_most_samples = 20000;  // the largest of so many is known well enough
+
+// Largest, mean, 95 % and root mean square.
+ErrorRecord record(std::string name, std::string unit, std::string reference, std::vector<double> values) {
+  ErrorRecord r{std::move(name), 0, std::move(unit), {}, {}, {}, std::move(reference)};
+  if (values.empty()) return r;
+  double sum = 0, squares = 0;
+  for (const double v : values) sum += v, squares += v * v;
+  const auto n = static_cast<double>(values.size());
+  r.value = sum / n;
+  r.rms = std::sqrt(squares / n);
+  r.max = *std::max_element(values.begin(), values.end());
+  const auto p95 = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 95 / 100);
+  std::nth_element(values.begin(), p95, values.end());
+  r.p95 = *p95;
+  return r;
+}
+
+}  // namespace
+
+void tell_tilts(const Population& population, const Ground& ground, Context& context) {
+  std::vector<double> values;
+  const std::size_t stride = population.instances.size() / k_most_samples + 1;
+  for (std::size_t i = 0; i < population.instances.size(); i += stride) {
+    const Double3& p = population.instances[i].position;
+    if (const auto here = ground.at(p.x, p.z)) values.push_back(thesis_tilt_error(here->normal));
+  }
+  if (!values.empty())
+    context.report().errors.push_back(
+        record("tilt by the thesis' two angles", "degrees", "terrain normal", std::move(values)));
+}
+
+void tell_feet(const Ecosystem& eco, const Ground& ground, Context& context) {
+  std::vector<double> values(eco.instance_count());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, eco.blocks.size(), 16), [&](const auto& range) {
+    for (std::size_t b = range.begin(); b < range.end(); ++b) {
+      const InstanceBlock& block = eco.blocks[b];
+      const Float3 e = eco.types[block.type].bounds.extent();
+      const double size = std::max({double{e.x}, double{e.y}, double{e.z}});
+      for (std::size_t i = block.first; i < block.first + block.count; ++i) {
+        const Instance s = instance_of(eco, block, i);
+        const auto here = ground.at(s.position.x, s.position.z);
+        if (here) values[i] = std::abs(s.position.y - here->height) / (s.scale * (size > 0 ? size : 1));
+      }
+    }
+  });
+  if (!values.empty())
+    context.report().errors.push_back(
+        record("foot off the ground", "of the tree's size", "terrain triangle", std::move(values)));
+}
+
+}  // namespace copse::ecogen

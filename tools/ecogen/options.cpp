@@ -1,0 +1,40 @@
+#include "tools/ecogen/options.h"
+
+#include "lib/formats/ecosystem_file.h"
+
+#include <CLI/CLI.hpp>
+
+namespace copse::ecogen {
+
+ToolInfo info() {
+  return {.name = "ecogen",
+          .summary =
+              "Makes an ecosystem of a page of JSON and a few maps: a terrain, materials, kinds of trees and "
+              "their "
+              "instances, in one file that the player opens at once.",
+          .examples = {{"ecogen --new > forest.json", "a page to begin with"},
+                       {"ecogen forest.json -o forest.eco --html forest.html",
+                        "the ecosystem, and what became of it"},
+                       {"ecogen forest.json --edit 'types[0].count=500' -o dense.eco",
+                        "the same page, another number"}},
+          .limits = {{"types of trees", k_max_tree_types, "types"},
+                     {"vertices along a side of a terrain", k_max_terrain_side, "vertices"},
+                     {"depth of the box hierarchy", k_max_box_depth, "levels"}}};
+}
+
+void add_options(CLI::App& app, Options& o) {
+  app.add_option("INPUT", o.input, "the page: JSON, see --new and --schema")->type_name("FILE");
+  app.add_option("-o,--output", o.output, "the ecosystem, NAME.eco")->type_name("FILE");
+  CLI::Option_group* page = app.add_option_group("The page");
+  page->add_flag("--new", o.print_template, "print a page to begin with, and exit");
+  page->add_flag("--schema", o.print_schema,
+                 "print the JSON Schema that pages are checked against, and exit");
+  page->add_option("--edit", o.edits, "set a value of the page, such as types[0].count=500; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  CLI::Option_group* file = app.add_option_group("The file");
+  file->add_flag("--pack", o.pack, "put trees and textures into it, instead of their names");
+  file->add_flag("--compress", o.compress, "compress its sections (zstd): smaller, but not used in place");
+}
+
+}  // namespace copse::ecogen

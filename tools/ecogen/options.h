@@ -1,0 +1,22 @@
+// The command line of ecogen.
+#pragma once
+
+#include "tools/common/tool.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace copse::ecogen {
+
+struct Options {
+  std::filesystem::path input, output;
+  bool print_template = false, print_schema = false;
+  std::vector<std::string> edits;
+  bool pack = false, compress = false;
+};
+
+ToolInfo info();
+void add_options(CLI::App& app, Options& options);
+
+}  // namespace copse::ecogen
