@@ -119,7 +119,7 @@ void check_exact(const Ecosystem& eco, Findings& findings) {
 
 void check_nodes(const Ecosystem& eco, Findings& findings) {
   for (std::size_t i = 0; i < eco.boxes.size(); ++i) {
-    const BoxNode& n = eco.boxes[i];
+    const QuadNode& n = eco.boxes[i];
     if (n.first_block > eco.blocks.size() || n.block_count > eco.blocks.size() - n.first_block)
       return findings.add("EBOX", i, "blocks out of range");
     if (!(n.bounds == FloatBox{}) &&
@@ -130,12 +130,12 @@ void check_nodes(const Ecosystem& eco, Findings& findings) {
   if (eco.boxes[0].first_block != 0 || eco.boxes[0].block_count != eco.blocks.size())
     return findings.add("EBOX", 0, "the root does not hold every block");
   for (std::uint32_t level = 0; level < eco.depth; ++level) {
-    const std::uint32_t first = first_box_node(level), children = first_box_node(level + 1);
+    const std::uint32_t first = first_quad_node(level), children = first_quad_node(level + 1);
     for (std::uint32_t i = 0; i < children - first; ++i) {
-      const BoxNode& n = eco.boxes[first + i];
+      const QuadNode& n = eco.boxes[first + i];
       std::uint32_t next = n.first_block;
       for (std::uint32_t c = 0; c < 4; ++c) {
-        const BoxNode& child = eco.boxes[children + 4 * i + c];
+        const QuadNode& child = eco.boxes[children + 4 * i + c];
         if (child.first_block != next)
           findings.add("EBOX", children + 4 * i + c, "its blocks do not follow its sister's");
         next = child.first_block + child.block_count;
@@ -178,9 +178,9 @@ void check_ecosystem_boxes(const Ecosystem& eco, Findings& findings) {
     }
   }
   for (std::uint32_t level = 0; level <= eco.depth && !eco.boxes.empty(); ++level) {
-    const std::uint32_t first = first_box_node(level), children = first_box_node(level + 1);
+    const std::uint32_t first = first_quad_node(level), children = first_quad_node(level + 1);
     for (std::uint32_t i = first; i < children; ++i) {
-      const BoxNode& n = eco.boxes[i];
+      const QuadNode& n = eco.boxes[i];
       if (n.bounds.empty() != (n.block_count == 0)) {
         const auto holds = [&](std::uint32_t b) { return !eco.blocks[b].bounds.empty(); };
         bool any = false;

@@ -110,17 +110,17 @@ static_assert(sizeof(InstanceBlock) == 80);
 // from the root. Level l has 4^l nodes in the order of the Hilbert curve, so that the children of node i of a
 // level are nodes 4 i to 4 i + 3 of the next, and the blocks below a node are contiguous. A block belongs to
 // the leaf that owns the points where its instances are planted; boxes hold whole trees and overlap.
-struct BoxNode {
+struct QuadNode {
   FloatBox bounds{};                                 // empty: invalid, nothing is planted below
   std::uint32_t first_block = 0, block_count = 0;  // all blocks below
-  friend bool operator==(const BoxNode&, const BoxNode&) = default;
+  friend bool operator==(const QuadNode&, const QuadNode&) = default;
 };
-static_assert(sizeof(BoxNode) == 32);
+static_assert(sizeof(QuadNode) == 32);
 
-inline constexpr std::uint32_t k_max_box_depth = 10;
+inline constexpr std::uint32_t k_max_quad_depth = 10;
 
 // Where level `level` of a box hierarchy begins; for level = depth + 1, how many nodes there are.
-constexpr std::uint32_t first_box_node(std::uint32_t level) {
+constexpr std::uint32_t first_quad_node(std::uint32_t level) {
   return ((std::uint32_t{1} << (2 * level)) - 1) / 3;
 }
 
@@ -136,7 +136,7 @@ struct Ecosystem {
   Array<InstanceBlock> blocks;
   Array<PackedInstance> packed;  // either these ...
   Array<ExactInstance> exact;    // ... or these
-  Array<BoxNode> boxes;          // first_box_node(depth + 1) nodes; empty when there are no blocks
+  Array<QuadNode> boxes;          // first_quad_node(depth + 1) nodes; empty when there are no blocks
   // How far what is stored may lie from what was meant: at most.
   float position_error = 0;  // m
   float rotation_error = 0;  // radians

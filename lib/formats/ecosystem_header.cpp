@@ -108,8 +108,8 @@ HeadFault decode_ecosystem_head(std::span<const std::uint8_t> bytes, Ecosystem& 
     if (!std::isfinite(side)) return {24, "the planted area is not finite"};
   if (counts.types > k_max_tree_types)
     return {84, fmt::format("{} types, the limit is {}", counts.types, k_max_tree_types)};
-  if (eco.depth > k_max_box_depth)
-    return {104, fmt::format("depth {}, the limit is {}", eco.depth, k_max_box_depth)};
+  if (eco.depth > k_max_quad_depth)
+    return {104, fmt::format("depth {}, the limit is {}", eco.depth, k_max_quad_depth)};
   if (!sound_terrain(eco.terrain, counts.regular_terrain)) return {108, "the terrain's numbers make no grid"};
   if (!non_negative({eco.position_error, eco.rotation_error, eco.scale_error}))
     return {164, "an error is negative or not finite"};

@@ -20,7 +20,7 @@ struct EcosystemCounts {
   std::uint32_t types = 0, blocks = 0, instances = 0, materials = 0, textures = 0;
   bool exact = false;            // 48 bytes an instance
   bool regular_terrain = false;  // EHGT, otherwise EPNT
-  std::uint32_t box_nodes(std::uint32_t depth) const { return blocks ? first_box_node(depth + 1) : 0; }
+  std::uint32_t box_nodes(std::uint32_t depth) const { return blocks ? first_quad_node(depth + 1) : 0; }
 };
 
 std::vector<std::uint8_t> encode_ecosystem_head(const Ecosystem& eco);

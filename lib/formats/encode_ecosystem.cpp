@@ -19,7 +19,7 @@ std::string misfit(const Ecosystem& eco) {
   const std::size_t vertices = t.regular() ? t.heights.size() : t.points.size();
   if (vertices != t.vertex_count() || (!t.regular() && !t.heights.empty())) return "the terrain's vertices";
   if (!eco.packed.empty() && !eco.exact.empty()) return "instances of both kinds";
-  if (eco.boxes.size() != (eco.blocks.empty() ? 0 : first_box_node(eco.depth + 1)))
+  if (eco.boxes.size() != (eco.blocks.empty() ? 0 : first_quad_node(eco.depth + 1)))
     return "the box hierarchy";
   if (eco.types.size() > k_max_tree_types) return "more types than a file may have";
   for (const TreeType& type : eco.types)

@@ -20,7 +20,7 @@ const Terrain k_terrain =
 
 std::vector<Instance> random_instances(std::size_t count, double size, std::uint32_t types,
                                        std::uint64_t seed = 1) {
-  const Ground ground(k_terrain);
+  const TerrainGround ground(k_terrain);
   std::vector<Instance> out(count);
   for (std::size_t i = 0; i < count; ++i) {
     Random r = Random(seed).fork(i);
@@ -42,7 +42,7 @@ Ecosystem with_types(std::uint32_t types) {
 }
 
 ArrangeOptions options(double size, bool exact = false) {
-  static const Ground ground(k_terrain);
+  static const TerrainGround ground(k_terrain);
   return {.exact = exact, .area = {0, 0, size, size}, .ground = &ground};
 }
 
@@ -86,7 +86,7 @@ TEST(Arrange, EveryInstanceComesBackWithinTheErrorsThatAreReported) {
 }
 
 TEST(Arrange, EveryFootIsOnTheGroundWithinAHundredThousandthOfItsSize) {
-  const Ground ground(k_terrain);
+  const TerrainGround ground(k_terrain);
   // Few over a wide ground and many on a little one: blocks are cut where rounding would show.
   for (const auto& [count, size] : {std::pair(10, 256.0), std::pair(3000, 256.0), std::pair(3000, 0.1)}) {
     for (const bool exact : {false, true}) {
@@ -111,8 +111,8 @@ TEST(Arrange, ALeafOwnsWhatIsPlantedInItsPortionAndSubtreesAreRuns) {
   ASSERT_TRUE(arrange(random_instances(4000, 256, 2), o, eco));
   ASSERT_EQ(eco.boxes.size(), 85u);
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> leaf_of;  // portion -> leaf
-  for (std::uint32_t leaf = first_box_node(3); leaf < 85; ++leaf) {
-    const BoxNode& n = eco.boxes[leaf];
+  for (std::uint32_t leaf = first_quad_node(3); leaf < 85; ++leaf) {
+    const QuadNode& n = eco.boxes[leaf];
     for (std::uint32_t b = n.first_block; b < n.first_block + n.block_count; ++b)
       for (std::uint32_t i = eco.blocks[b].first; i < eco.blocks[b].first + eco.blocks[b].count; ++i) {
         const Double3 p = instance_of(eco, eco.blocks[b], i).position;
@@ -148,7 +148,7 @@ TEST(Arrange, TheHierarchyShowsTheSameAsTestingEveryBlock) {
     while (!stack.empty()) {
       const auto [level, i] = stack.back();
       stack.pop_back();
-      const BoxNode& n = eco.boxes[first_box_node(level) + i];
+      const QuadNode& n = eco.boxes[first_quad_node(level) + i];
       if (n.bounds.empty() || !seen(n.bounds)) continue;
       if (level < eco.depth) {
         for (std::uint32_t c = 0; c < 4; ++c) stack.emplace_back(level + 1, 4 * i + c);
@@ -179,7 +179,8 @@ TEST(Arrange, AMillionInOnePointAreAMillion) {
   ASSERT_TRUE(arrange(std::vector<Instance>(100000, Instance{.position = {1, 2, 3}}), options(256), eco));
   EXPECT_EQ(check_ecosystem(eco), std::vector<std::string>{});
   EXPECT_EQ(eco.instance_count(), 100000u);
-  EXPECT_EQ(eco.position_error, round_up(distance({1, 2, 3}, {1, Ground(k_terrain).at(1, 3)->height, 3})));
+  EXPECT_EQ(eco.position_error,
+            round_up(distance({1, 2, 3}, {1, TerrainGround(k_terrain).at(1, 3)->height, 3})));
 }
 
 TEST(Arrange, TypesWithoutAShapeAreSoundToo) {
@@ -194,7 +195,7 @@ TEST(Arrange, ALeafHoldsAboutAThousand) {
   EXPECT_EQ(usual_depth(0), 0u);
   EXPECT_EQ(usual_depth(2000), 0u);
   EXPECT_EQ(usual_depth(1000000), 5u);
-  EXPECT_EQ(usual_depth(std::size_t{1} << 40), k_max_box_depth);
+  EXPECT_EQ(usual_depth(std::size_t{1} << 40), k_max_quad_depth);
 }
 
 }  // namespace

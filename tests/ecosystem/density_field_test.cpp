@@ -10,12 +10,12 @@
 namespace copse {
 namespace {
 
-const Area k_area{0, 0, 64, 64};
+const PlantedArea k_area{0, 0, 64, 64};
 
 struct World {
   Terrain terrain = regular_terrain(
       65, 64, [](double x, double) { return x < 32 ? 0 : x - 32; });  // 45 degrees in the east
-  Ground ground{terrain};
+  TerrainGround ground{terrain};
   DensityField field(const PlacementRules& rules, std::uint32_t side = 64) const {
     return make_field(rules, k_area, ground, side, side, Random(1));
   }
@@ -81,7 +81,7 @@ TEST(DensityField, DistancesAreExactOnPixelsThatAreNotSquare) {
   ValueMap map{23, 17, std::vector<float>(23 * 17)};
   for (float& v : map.values) v = random.chance(0.02) ? 1.0f : 0.0f;
   map.values[40] = 1;
-  const Area area{0, 0, 46, 51};  // pixels of 2 x 3 m
+  const PlantedArea area{0, 0, 46, 51};  // pixels of 2 x 3 m
   const ValueMap d = distance_map(map, area);
   for (int r = 0; r < 17; ++r)
     for (int c = 0; c < 23; ++c) {
@@ -108,7 +108,7 @@ TEST(DensityField, DistanceToNothingIsInfinite) {
 
 TEST(DensityField, NothingStandsWhereThereIsNoGround) {
   const Terrain half = free_terrain(2, 2, {{0, 0, 0}, {0, 0, 0}, {0, 0, 64}, {64, 0, 64}});
-  const Ground ground(half);
+  const TerrainGround ground(half);
   const DensityField f = make_field({}, k_area, ground, 64, 64, Random(1));
   EXPECT_NEAR(f.total(), 64 * 64 / 2.0, 33);
 }

@@ -25,7 +25,7 @@ TEST(Ground, HeightsLieOnTheTrianglesAndAgreeWithTheGeneralLookUp) {
   Random random(3);
   const Terrain t = regular_terrain(17, 32, [&](double, double) { return random.uniform(-4, 4); });
   const Terrain f = freed(t);
-  const Ground fast(t), general(f);
+  const TerrainGround fast(t), general(f);
   for (int i = 0; i < 20000; ++i) {
     const double x = random.uniform(0, 32), z = random.uniform(0, 32);
     const auto a = fast.at(x, z), b = general.at(x, z);
@@ -37,7 +37,7 @@ TEST(Ground, HeightsLieOnTheTrianglesAndAgreeWithTheGeneralLookUp) {
 
 TEST(Ground, VerticesAndEdgesAreOnTheTerrain) {
   const Terrain t = regular_terrain(5, 4, [](double x, double z) { return x * x + 3 * z; });
-  const Ground ground(t);
+  const TerrainGround ground(t);
   for (std::uint32_t r = 0; r < 5; ++r)
     for (std::uint32_t c = 0; c < 5; ++c) EXPECT_EQ(ground.at(c, r)->height, t.vertex(c, r).y);
   EXPECT_NEAR(ground.at(0.5, 0)->height, 0.5, 1e-15);
@@ -47,7 +47,7 @@ TEST(Ground, VerticesAndEdgesAreOnTheTerrain) {
 TEST(Ground, NormalsAreThoseOfThePlane) {
   const Terrain t = regular_terrain(9, 8, [](double x, double z) { return 0.5 * x - 0.25 * z; });
   const double l = std::sqrt(0.25 + 1 + 0.0625);
-  EXPECT_LT(distance(Ground(t).at(3.3, 4.4)->normal, Double3{-0.5 / l, 1 / l, 0.25 / l}), 1e-12);
+  EXPECT_LT(distance(TerrainGround(t).at(3.3, 4.4)->normal, Double3{-0.5 / l, 1 / l, 0.25 / l}), 1e-12);
 }
 
 TEST(Ground, OfAFoldTheHighestTriangleCounts) {
@@ -56,14 +56,14 @@ TEST(Ground, OfAFoldTheHighestTriangleCounts) {
   for (const float z : {0.0f, 2.0f})
     for (const Float3& v : {Float3{0, 0, z}, {4, 1, z}, {1, 3, z}, {6, 5, z}}) p.push_back(v);
   const Terrain t = free_terrain(4, 2, p);
-  const Ground ground(t);
+  const TerrainGround ground(t);
   EXPECT_NEAR(ground.at(2, 1)->height, 3 + 2.0 / 5, 1e-6);
   EXPECT_NEAR(ground.at(0.5, 1)->height, 0.125, 1e-6);
 }
 
 TEST(Ground, AOneTriangleTerrainHasGroundUnderTheTriangleOnly) {
   const Terrain t = free_terrain(2, 2, {{0, 0, 0}, {0, 0, 0}, {0, 2, 4}, {4, 2, 4}});
-  const Ground ground(t);
+  const TerrainGround ground(t);
   EXPECT_NEAR(ground.area(), 8, 1e-12);
   EXPECT_FALSE(ground.covers_all());
   EXPECT_TRUE(ground.at(1, 3));
@@ -73,15 +73,15 @@ TEST(Ground, AOneTriangleTerrainHasGroundUnderTheTriangleOnly) {
 
 TEST(Ground, AVerticalTerrainHasNoArea) {
   const Terrain t = free_terrain(2, 2, {{0, 0, 0}, {0, 9, 0}, {0, 0, 5}, {0, 9, 5}});
-  EXPECT_EQ(Ground(t).area(), 0);
-  EXPECT_FALSE(Ground(t).at(0, 2));
-  EXPECT_FALSE(Ground(Terrain{}).at(0, 0));
+  EXPECT_EQ(TerrainGround(t).area(), 0);
+  EXPECT_FALSE(TerrainGround(t).at(0, 2));
+  EXPECT_FALSE(TerrainGround(Terrain{}).at(0, 0));
 }
 
 TEST(Ground, FarFromTheOriginNothingIsLost) {
   Terrain t = regular_terrain(3, 2, [](double x, double) { return x; });
   t.origin = {1e7, 100, -1e7};
-  EXPECT_NEAR(Ground(t).at(1e7 + 0.3125, -1e7 + 1)->height, 100.3125, 1e-8);
+  EXPECT_NEAR(TerrainGround(t).at(1e7 + 0.3125, -1e7 + 1)->height, 100.3125, 1e-8);
 }
 
 }  // namespace

@@ -14,13 +14,13 @@
 namespace copse {
 namespace {
 
-const Area k_area{0, 0, 64, 64};
+const PlantedArea k_area{0, 0, 64, 64};
 
 struct World {
   Terrain terrain = regular_terrain(33, 64, [](double x, double z) { return 3 * std::sin(x / 9) + 0.1 * z; });
-  Ground ground{terrain};
+  TerrainGround ground{terrain};
   Result<Population> plant(const std::vector<TypePlan>& types, std::uint64_t seed = 1,
-                           const Area& area = k_area) const {
+                           const PlantedArea& area = k_area) const {
     return populate(types, ground, area, Random(seed));
   }
 };
@@ -56,7 +56,7 @@ TEST(Populate, EveryFootIsOnTheGroundAndEveryTrunkAlongItsNormal) {
 TEST(Populate, CountsAreKeptWhateverTheyAre) {
   const World world;
   for (const std::uint64_t count : {0, 1, 2, 3, 1000, 100000}) {
-    for (const Area& area : {k_area, Area{10, 10, 11, 11}, Area{5, 5, 5.001, 60}}) {
+    for (const PlantedArea& area : {k_area, PlantedArea{10, 10, 11, 11}, PlantedArea{5, 5, 5.001, 60}}) {
       const auto p = world.plant({type(count), type(count / 3)}, 1, area);
       ASSERT_TRUE(p);
       EXPECT_EQ(p->instances.size(), count + count / 3);
@@ -201,7 +201,8 @@ TEST(Populate, IsTheSameOnEveryMachine) {
   spaced.spacing = 0.5;
   spaced.rules.clusters = {.count = 3, .radius = 20};
   steep.rules.slope = {5, 90};
-  const auto p = populate(std::vector{type(1000), spaced, steep}, Ground(*terrain), k_area, Random(42));
+  const auto p =
+      populate(std::vector{type(1000), spaced, steep}, TerrainGround(*terrain), k_area, Random(42));
   ASSERT_TRUE(p);
   std::uint64_t hash = 0;
   InstanceBlock block;

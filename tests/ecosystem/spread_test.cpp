@@ -64,12 +64,12 @@ TEST(Spread, AUniformFieldIsFilledMoreEvenlyThanChance) {
 
 TEST(Spread, PointsKeepASharpRuleInsideACell) {
   const Terrain terrain = regular_terrain(3, 8, [](double, double) { return 0; });
-  const Ground ground(terrain);
+  const TerrainGround ground(terrain);
   ValueMap forbidden{32, 32, std::vector<float>(32 * 32)};
   for (std::size_t i = 0; i < forbidden.values.size(); ++i) forbidden.values[i] = i % 3 == 0 ? 1 : 0;
   PlacementRules rules;
   rules.forbidden = &forbidden;
-  const Area area{0, 0, 8, 8};
+  const PlantedArea area{0, 0, 8, 8};
   const DensityField f = make_field(rules, area, ground, 10, 10, Random(1));
   const Spreader spreader(f);
   const PlacementTest test(rules, area, ground);

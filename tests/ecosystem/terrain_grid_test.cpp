@@ -17,7 +17,7 @@ TEST(TerrainGrid, WithoutAnythingItIsFlat) {
   const auto t = make_terrain(plan(4), Random(0));
   ASSERT_TRUE(t) << t.error().what;
   EXPECT_TRUE(t->regular());
-  const Ground ground(*t);
+  const TerrainGround ground(*t);
   EXPECT_EQ(ground.at(117, -31)->height, 5);
   EXPECT_EQ(ground.x1(), 130);
   EXPECT_EQ(ground.z1(), 10);
@@ -30,7 +30,7 @@ TEST(TerrainGrid, AHeightMapRunsFromLowToHigh) {
   p.low = -2, p.high = 6;
   const auto t = make_terrain(p, Random(0));
   ASSERT_TRUE(t);
-  const Ground ground(*t);
+  const TerrainGround ground(*t);
   EXPECT_NEAR(ground.at(110, -50)->height, 5 - 2, 1e-6);
   EXPECT_NEAR(ground.at(110, -20)->height, 5 + 2, 1e-6);  // half way
   EXPECT_NEAR(ground.at(110, 10)->height, 5 + 6, 1e-6);
@@ -53,7 +53,7 @@ TEST(TerrainGrid, AFreeSurfaceIsSampledWithItsOwnXAndZ) {
   ASSERT_TRUE(t) << t.error().what;
   EXPECT_FALSE(t->regular());
   for (const Float3& v : t->points) EXPECT_NEAR(v.x * v.x + v.y * v.y, 9, 1e-5);
-  EXPECT_NEAR(Ground(*t).at(0, 4)->height, 3, 1e-3);
+  EXPECT_NEAR(TerrainGround(*t).at(0, 4)->height, 3, 1e-3);
 }
 
 TEST(TerrainGrid, ASurfaceOfHeightsKeepsTheGridRegular) {

@@ -5,7 +5,7 @@
 namespace copse {
 namespace {
 
-const Area k_area{10, 20, 14, 22};
+const PlantedArea k_area{10, 20, 14, 22};
 const ValueMap k_map{4, 2, {0, 1, 2, 3, 4, 5, 6, 7}};
 
 TEST(ValueMap, APixelCoversItsPartOfTheArea) {

@@ -39,7 +39,7 @@ Ecosystem little_ecosystem(bool exact) {
   std::vector<InstanceBlock> blocks;
   std::vector<PackedInstance> packed;
   std::vector<ExactInstance> exacts;
-  std::vector<BoxNode> nodes(5);
+  std::vector<QuadNode> nodes(5);
   std::uint32_t first = 0;
   for (std::uint32_t leaf = 0; leaf < 4; ++leaf) {
     nodes[1 + leaf].first_block = static_cast<std::uint32_t>(blocks.size());

@@ -137,7 +137,7 @@ Ecosystem ecosystem(bool exact) {
                                          .origin = {104, 0, 208},
                                          .step = {},
                                          .bounds = {{3, 0, 7}, {5, 2, 9}}}};
-  e.boxes = std::vector<BoxNode>{{.bounds = {{-1, 0, -1}, {5, 3, 9}}, .first_block = 0, .block_count = 2}};
+  e.boxes = std::vector<QuadNode>{{.bounds = {{-1, 0, -1}, {5, 3, 9}}, .first_block = 0, .block_count = 2}};
   Instance plain{.position = {101, 0, 201}, .scale = 0.5, .motion = 6, .tint = {255, 128, 0}};
   Instance turned{.position = {102, 0, 203},
                   .rotation = {0, 1, 0, 0},

@@ -20,13 +20,13 @@ namespace fs = std::filesystem;
 
 enum Stream : std::uint64_t { stream_terrain = 1, stream_plants = 2 };
 
-Area area_of(const Scene& scene, const Ground& ground) {
-  return scene.area.value_or(Area{ground.x0(), ground.z0(), ground.x1(), ground.z1()});
+PlantedArea area_of(const Scene& scene, const TerrainGround& ground) {
+  return scene.area.value_or(PlantedArea{ground.x0(), ground.z0(), ground.x1(), ground.z1()});
 }
 
-Result<void> check_area(const Scene& scene, const Ground& ground, const fs::path& document) {
+Result<void> check_area(const Scene& scene, const TerrainGround& ground, const fs::path& document) {
   if (!scene.area) return {};
-  const Area& a = *scene.area;
+  const PlantedArea& a = *scene.area;
   if (a.x0 >= ground.x0() && a.z0 >= ground.z0() && a.x1 <= ground.x1() && a.z1 <= ground.z1()) return {};
   return refuse(
       document.string(), "area: reaches out of the terrain",
@@ -44,7 +44,7 @@ double crown_radius(const FloatBox& box) {
   return std::max({std::abs(box.min.x), std::abs(box.max.x), std::abs(box.min.z), std::abs(box.max.z)});
 }
 
-Instance instance_of(const PlantedSource& p, const TypeSource& type, const Ground& ground) {
+Instance instance_of(const PlantedSource& p, const TypeSource& type, const TerrainGround& ground) {
   Instance i;
   const auto here = ground.at(p.x, p.z);
   i.position = {p.x, p.y.value_or(here ? here->height : 0), p.z};
@@ -66,7 +66,7 @@ class Builder {
 
   Result<Built> build() {
     if (auto done = make_ground(); !done) return in_file(done.error(), options_.document);
-    const Ground ground(built_.eco.terrain);
+    const TerrainGround ground(built_.eco.terrain);
     if (auto done = check_area(scene_, ground, options_.document); !done)
       return std::unexpected(done.error());
     if (auto done = read_trees(); !done) return std::unexpected(done.error());
@@ -121,7 +121,7 @@ class Builder {
     return {};
   }
 
-  Result<void> plan_types(const Ground& ground) {
+  Result<void> plan_types(const TerrainGround& ground) {
     Stage stage = context_.stage("maps");
     plans_.reserve(scene_.types.size());
     for (std::size_t i = 0; i < scene_.types.size(); ++i) {
@@ -157,8 +157,8 @@ class Builder {
   }
 
   // The types of a mix share its count as their maps share its density.
-  Result<void> share_mixes(const Ground& ground) {
-    const Area area = area_of(scene_, ground);
+  Result<void> share_mixes(const TerrainGround& ground) {
+    const PlantedArea area = area_of(scene_, ground);
     for (std::size_t m = 0; m < scene_.mixes.size(); ++m) {
       const MixSource& mix = scene_.mixes[m];
       auto density = inputs_.map(mix.density);
@@ -189,7 +189,7 @@ class Builder {
     return {};
   }
 
-  Result<Population> plant(const Ground& ground) {
+  Result<Population> plant(const TerrainGround& ground) {
     Stage stage = context_.stage("plant");
     auto population = populate(plans_, ground, area_of(scene_, ground), random_.fork(stream_plants));
     if (population) stage.items(population->instances.size(), "instances");
@@ -223,10 +223,10 @@ class Builder {
     return resolve_files(options_, built_, context_);
   }
 
-  Result<void> lay_out(const Population& population, const Ground& ground) {
+  Result<void> lay_out(const Population& population, const TerrainGround& ground) {
     Stage stage = context_.stage("arrange");
     stage.items(population.instances.size(), "instances");
-    const Area area = area_of(scene_, ground);
+    const PlantedArea area = area_of(scene_, ground);
     // By hand an instance may float: then its y is meant as it is.
     bool floats = false;
     for (const TypeSource& t : scene_.types)

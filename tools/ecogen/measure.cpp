@@ -33,7 +33,7 @@ ErrorRecord record(std::string name, std::string unit, std::string reference, st
 
 }  // namespace
 
-void tell_tilts(const Population& population, const Ground& ground, Context& context) {
+void tell_tilts(const Population& population, const TerrainGround& ground, Context& context) {
   std::vector<double> values;
   const std::size_t stride = population.instances.size() / k_most_samples + 1;
   for (std::size_t i = 0; i < population.instances.size(); i += stride) {
@@ -45,7 +45,7 @@ void tell_tilts(const Population& population, const Ground& ground, Context& con
         record("tilt by the thesis' two angles", "degrees", "terrain normal", std::move(values)));
 }
 
-void tell_feet(const Ecosystem& eco, const Ground& ground, Context& context) {
+void tell_feet(const Ecosystem& eco, const TerrainGround& ground, Context& context) {
   std::vector<double> values(eco.instance_count());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, eco.blocks.size(), 16), [&](const auto& range) {
     for (std::size_t b = range.begin(); b < range.end(); ++b) {

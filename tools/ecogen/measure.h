@@ -10,9 +10,9 @@ namespace copse::ecogen {
 
 // How far the thesis' two angles (digest 000, erratum E3) would lean each instance away from the normal under
 // it.
-void tell_tilts(const Population& population, const Ground& ground, Context& context);
+void tell_tilts(const Population& population, const TerrainGround& ground, Context& context);
 
 // How far the feet, as stored, are off the ground, in shares of their tree's size.
-void tell_feet(const Ecosystem& eco, const Ground& ground, Context& context);
+void tell_feet(const Ecosystem& eco, const TerrainGround& ground, Context& context);
 
 }  // namespace copse::ecogen

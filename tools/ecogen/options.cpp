@@ -19,7 +19,7 @@ ToolInfo info() {
                         "the same page, another number"}},
           .limits = {{"types of trees", k_max_tree_types, "types"},
                      {"vertices along a side of a terrain", k_max_terrain_side, "vertices"},
-                     {"depth of the box hierarchy", k_max_box_depth, "levels"}}};
+                     {"depth of the box hierarchy", k_max_quad_depth, "levels"}}};
 }
 
 void add_options(CLI::App& app, Options& o) {

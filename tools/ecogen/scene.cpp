@@ -45,8 +45,8 @@ class Reader {
   static Float3 colour(const Json& j) { return to_float(point(j)); }
   fs::path file(const Json& j) const { return folder_ / j.get<std::string>(); }
 
-  Area area(const Json& j) const {
-    const Area a{j[0].get<double>(), j[1].get<double>(), j[2].get<double>(), j[3].get<double>()};
+  PlantedArea area(const Json& j) const {
+    const PlantedArea a{j[0].get<double>(), j[1].get<double>(), j[2].get<double>(), j[3].get<double>()};
     if (!(a.x0 < a.x1 && a.z0 < a.z1))
       refuse_at("area", "holds nothing", "write x0, z0, x1, z1 with x0 < x1 and z0 < z1");
     return a;
@@ -66,12 +66,12 @@ class Reader {
   }
 
   // A number m is `low(m)` to m.
-  static Range range(const Json& j, const std::string& path, double from) {
+  static ValueRange range(const Json& j, const std::string& path, double from) {
     if (j.is_number()) {
       const double m = j.get<double>();
       return {std::min(from * m, m), std::max(from * m, m)};
     }
-    Range r;
+    ValueRange r;
     r.min = j.value("min", r.min);
     r.max = j.value("max", r.max);
     if (r.min > r.max)

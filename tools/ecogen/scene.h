@@ -37,7 +37,7 @@ struct TypeSource {
   std::filesystem::path tree;
   std::uint64_t count = 0;
   std::vector<PlantedSource> planted;
-  Range head{0, 360}, pitch{0, 0}, roll{0, 0}, scale{1, 1}, slope, altitude, distance;
+  ValueRange head{0, 360}, pitch{0, 0}, roll{0, 0}, scale{1, 1}, slope, altitude, distance;
   bool tilt_to_ground = false, fewer = false;
   std::optional<MapSource> scale_map, density, forbidden, distance_map;
   std::filesystem::path tint_map;  // empty: none
@@ -61,7 +61,7 @@ struct Scene {
   std::uint64_t seed = 0;
   bool exact = false;
   std::uint32_t depth = k_none;
-  std::optional<Area> area;
+  std::optional<PlantedArea> area;
   TerrainPlan terrain;  // its maps still unread
   std::optional<MapSource> height_map;
   std::uint32_t terrain_material = k_none;

@@ -186,12 +186,12 @@ void pack_block(const std::vector<Instance>& instances, const std::vector<Key>& 
   block.bounds = round_outward({bounds.min - eco.origin - s, bounds.max - eco.origin + s});
 }
 
-std::vector<BoxNode> boxes_over(const std::vector<InstanceBlock>& blocks, const std::vector<Key>& keys,
-                                std::uint32_t depth) {
-  std::vector<BoxNode> nodes(first_box_node(depth + 1));
-  const std::uint32_t leaves = first_box_node(depth);
+std::vector<QuadNode> boxes_over(const std::vector<InstanceBlock>& blocks, const std::vector<Key>& keys,
+                                 std::uint32_t depth) {
+  std::vector<QuadNode> nodes(first_quad_node(depth + 1));
+  const std::uint32_t leaves = first_quad_node(depth);
   for (std::uint32_t b = 0; b < blocks.size(); ++b) {
-    BoxNode& leaf = nodes[leaves + (keys[blocks[b].first].curve >> 36)];
+    QuadNode& leaf = nodes[leaves + (keys[blocks[b].first].curve >> 36)];
     leaf.bounds.grow(blocks[b].bounds);
     ++leaf.block_count;
   }
@@ -201,11 +201,11 @@ std::vector<BoxNode> boxes_over(const std::vector<InstanceBlock>& blocks, const 
     next += nodes[i].block_count;
   }
   for (std::uint32_t level = depth; level-- > 0;) {
-    const std::uint32_t first = first_box_node(level), children = first_box_node(level + 1);
+    const std::uint32_t first = first_quad_node(level), children = first_quad_node(level + 1);
     for (std::uint32_t i = first; i < children; ++i) {
       nodes[i].first_block = nodes[children + 4 * (i - first)].first_block;
       for (std::uint32_t c = 0; c < 4; ++c) {
-        const BoxNode& child = nodes[children + 4 * (i - first) + c];
+        const QuadNode& child = nodes[children + 4 * (i - first) + c];
         nodes[i].bounds.grow(child.bounds);
         nodes[i].block_count += child.block_count;
       }
@@ -241,7 +241,7 @@ void count_types(const std::vector<Instance>& instances, Ecosystem& eco) {
 
 std::uint32_t usual_depth(std::size_t instances) {
   std::uint32_t depth = 0;
-  while (depth < k_max_box_depth && instances > (std::uint64_t{2000} << (2 * depth))) ++depth;
+  while (depth < k_max_quad_depth && instances > (std::uint64_t{2000} << (2 * depth))) ++depth;
   return depth;
 }
 
@@ -265,7 +265,7 @@ Result<void> arrange(const std::vector<Instance>& instances, const ArrangeOption
   eco.position_error = round_up(worst.position);
   eco.rotation_error = round_up(worst.rotation);
   eco.scale_error = round_up(worst.scale);
-  eco.boxes = blocks.empty() ? std::vector<BoxNode>() : boxes_over(blocks, keys, eco.depth);
+  eco.boxes = blocks.empty() ? std::vector<QuadNode>() : boxes_over(blocks, keys, eco.depth);
   for (const InstanceBlock& b : blocks) eco.bounds.grow(b.bounds);
   eco.blocks = std::move(blocks);
   eco.packed = std::move(packed);

@@ -25,7 +25,7 @@ struct ArrangeOptions {
   std::uint32_t depth = k_none;  // of the box hierarchy; none: so that a leaf has about 1000 instances
   std::array<double, 4> area{};  // x0, z0, x1, z1
   // Where given, a foot stands on the ground again after its x and z were rounded.
-  const Ground* ground = nullptr;
+  const TerrainGround* ground = nullptr;
 };
 
 // The depth that `none` stands for.

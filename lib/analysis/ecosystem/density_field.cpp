@@ -13,7 +13,7 @@ namespace {
 
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
-bool is_limit(const Range& r) {
+bool is_limit(const ValueRange& r) {
   return r.min > -k_infinite || r.max < k_infinite;
 }
 
@@ -100,7 +100,7 @@ std::uint32_t field_side(std::uint32_t largest_map, std::uint64_t instances) {
       std::clamp(std::ceil(wanted), 64.0, static_cast<double>(k_most_field_cells)));
 }
 
-ValueMap distance_map(const ValueMap& map, const Area& area) {
+ValueMap distance_map(const ValueMap& map, const PlantedArea& area) {
   const double sx = area.width() / map.width, sz = area.depth() / map.height;
   std::vector<double> squares(map.values.size());
   for (std::size_t i = 0; i < squares.size(); ++i) squares[i] = map.values[i] >= 0.5f ? 0 : k_infinite;
@@ -123,7 +123,8 @@ ValueMap distance_map(const ValueMap& map, const Area& area) {
   return result;
 }
 
-PlacementTest::PlacementTest(const PlacementRules& rules, const Area& area, const Ground& ground)
+PlacementTest::PlacementTest(const PlacementRules& rules, const PlantedArea& area,
+                             const TerrainGround& ground)
     : rules_(rules), area_(area), ground_(ground) {
   if (is_limit(rules.slope)) {
     // A slope of 0 to 90 degrees falls as the normal's y rises from 0 to 1.
@@ -143,7 +144,7 @@ bool PlacementTest::allows(double x, double z) const {
   return rules_.altitude.holds(here->height);
 }
 
-DensityField make_field(const PlacementRules& rules, const Area& area, const Ground& ground,
+DensityField make_field(const PlacementRules& rules, const PlantedArea& area, const TerrainGround& ground,
                         std::uint32_t columns, std::uint32_t rows, const Random& random) {
   DensityField field{area, columns, rows, std::vector<double>(std::size_t{columns} * rows)};
   const PlacementTest test(rules, area, ground);

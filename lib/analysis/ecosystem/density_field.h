@@ -15,7 +15,7 @@
 
 namespace copse {
 
-struct Range {
+struct ValueRange {
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
   bool holds(double v) const { return v >= min && v <= max; }
 };
@@ -32,14 +32,14 @@ struct PlacementRules {
   const ValueMap* share_of = nullptr;   // of a species mix: density is multiplied by share_of / share_total
   std::vector<const ValueMap*> share_total{};
   const ValueMap* distance_to = nullptr;  // `distance` is that to the nearest point where it is at least 1/2
-  Range distance{}, slope{}, altitude{};       // m, degrees, m
+  ValueRange distance{}, slope{}, altitude{};  // m, degrees, m
   Clusters clusters{};
   bool limits_anything() const;
 };
 
 // Weights of cells, row after row over an area.
 struct DensityField {
-  Area area;
+  PlantedArea area;
   std::uint32_t columns = 0, rows = 0;
   std::vector<double> weights;  // >= 0
   double total() const;         // summed row by row
@@ -52,25 +52,25 @@ inline constexpr std::uint32_t k_most_field_cells = 2048;  // a side
 std::uint32_t field_side(std::uint32_t largest_map, std::uint64_t instances);
 
 // Weights at the centres of cells; 0 where there is no ground. Rows in parallel.
-DensityField make_field(const PlacementRules& rules, const Area& area, const Ground& ground,
+DensityField make_field(const PlacementRules& rules, const PlantedArea& area, const TerrainGround& ground,
                         std::uint32_t columns, std::uint32_t rows, const Random& random);
 
 // Whether the sharp rules let something stand here (all but density, shares and clusters, which weigh).
 class PlacementTest {
  public:
-  PlacementTest(const PlacementRules& rules, const Area& area, const Ground& ground);
+  PlacementTest(const PlacementRules& rules, const PlantedArea& area, const TerrainGround& ground);
   bool allows(double x, double z) const;
 
  private:
   const PlacementRules& rules_;
-  Area area_;
-  const Ground& ground_;
+  PlantedArea area_;
+  const TerrainGround& ground_;
   double least_up_ = 0, most_up_ = 1;  // the slope as the normal's y
   ValueMap distance_;                  // m, one a pixel of distance_to
 };
 
 // For every pixel of `map` the distance in metres from its centre to the nearest centre of a pixel of at
 // least 1/2; +infinity when there is none. Exact; O(pixels) (Felzenszwalb and Huttenlocher 2012).
-ValueMap distance_map(const ValueMap& map, const Area& area);
+ValueMap distance_map(const ValueMap& map, const PlantedArea& area);
 
 }  // namespace copse

@@ -32,7 +32,7 @@ std::uint32_t bucket(double at, double low, double high, std::uint32_t count) {
 
 }  // namespace
 
-Ground::Ground(const Terrain& terrain) : terrain_(terrain) {
+TerrainGround::TerrainGround(const Terrain& terrain) : terrain_(terrain) {
   if (terrain.columns == 0) return;
   if (terrain.regular()) {
     x0_ = terrain.origin.x;
@@ -47,7 +47,7 @@ Ground::Ground(const Terrain& terrain) : terrain_(terrain) {
   fill_buckets();
 }
 
-void Ground::fill_buckets() {
+void TerrainGround::fill_buckets() {
   const std::uint32_t count = 2 * (terrain_.columns - 1) * (terrain_.rows - 1);
   const auto side = static_cast<std::uint32_t>(std::clamp(std::sqrt(count / 2.0), 1.0, 4096.0));
   across_ = down_ = side;
@@ -68,7 +68,7 @@ void Ground::fill_buckets() {
   for (std::uint32_t i = 0; i < count; ++i) visit(i, [&](std::size_t b) { triangles_[next[b]++] = i; });
 }
 
-double Ground::area() const {
+double TerrainGround::area() const {
   if (terrain_.columns == 0) return 0;
   if (terrain_.regular()) return (x1_ - x0_) * (z1_ - z0_);
   double sum = 0;
@@ -77,13 +77,13 @@ double Ground::area() const {
   return sum;
 }
 
-std::optional<GroundPoint> Ground::at(double x, double z) const {
+std::optional<GroundPoint> TerrainGround::at(double x, double z) const {
   if (terrain_.columns == 0) return std::nullopt;
   if (terrain_.regular()) return at_regular(x, z);
   return at_free(x, z);
 }
 
-GroundPoint Ground::at_regular(double x, double z) const {
+GroundPoint TerrainGround::at_regular(double x, double z) const {
   const Terrain& t = terrain_;
   const double u = std::clamp((x - t.origin.x) / t.spacing_x, 0.0, t.columns - 1.0);
   const double v = std::clamp((z - t.origin.z) / t.spacing_z, 0.0, t.rows - 1.0);
@@ -99,7 +99,7 @@ GroundPoint Ground::at_regular(double x, double z) const {
   return {t.origin.y + (ya + fu * along + fv * down), upward({-along / t.spacing_x, 1, -down / t.spacing_z})};
 }
 
-std::optional<GroundPoint> Ground::at_free(double x, double z) const {
+std::optional<GroundPoint> TerrainGround::at_free(double x, double z) const {
   if (first_.empty() || !(x >= x0_ && x <= x1_ && z >= z0_ && z <= z1_)) return std::nullopt;
   const std::size_t b = std::size_t{bucket(z, z0_, z1_, down_)} * across_ + bucket(x, x0_, x1_, across_);
   std::optional<GroundPoint> best;

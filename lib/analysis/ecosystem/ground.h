@@ -18,10 +18,10 @@ struct GroundPoint {
   Double3 normal{0, 1, 0};  // of the triangle, length 1, y > 0
 };
 
-class Ground {
+class TerrainGround {
  public:
   // `terrain` must outlive it.
-  explicit Ground(const Terrain& terrain);
+  explicit TerrainGround(const Terrain& terrain);
 
   // The rectangle that the terrain covers or surrounds; a side of 0 where it is vertical.
   double x0() const { return x0_; }
@@ -30,7 +30,8 @@ class Ground {
   double z1() const { return z1_; }
   // Whether every point of the rectangle has a triangle below it.
   bool covers_all() const { return terrain_.regular(); }
-  // Area of the triangles seen from above, folds counted once more: 0 means that nothing can stand here.
+  // PlantedArea of the triangles seen from above, folds counted once more: 0 means that nothing can stand
+  // here.
   double area() const;
 
   // None: no triangle there. On a regular grid points outside are moved to the border.

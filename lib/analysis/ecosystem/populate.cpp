@@ -23,7 +23,8 @@ constexpr int k_tries_in_piece = 30, k_tries_anywhere = 1000, k_failures_in_a_ro
 
 class Planter {
  public:
-  Planter(std::span<const TypePlan> types, const Ground& ground, const Area& area, const Random& random)
+  Planter(std::span<const TypePlan> types, const TerrainGround& ground, const PlantedArea& area,
+          const Random& random)
       : types_(types), ground_(ground), area_(area), random_(random), random_ones_(types.size()) {
     out_.types.resize(types.size());
   }
@@ -216,8 +217,8 @@ class Planter {
   }
 
   std::span<const TypePlan> types_;
-  const Ground& ground_;
-  Area area_;
+  const TerrainGround& ground_;
+  PlantedArea area_;
   Random random_;
   std::vector<std::vector<Instance>> random_ones_;
   Spacing spacing_;
@@ -226,8 +227,8 @@ class Planter {
 
 }  // namespace
 
-Result<Population> populate(std::span<const TypePlan> types, const Ground& ground, const Area& area,
-                            const Random& random) {
+Result<Population> populate(std::span<const TypePlan> types, const TerrainGround& ground,
+                            const PlantedArea& area, const Random& random) {
   return Planter(types, ground, area, random).plant();
 }
 

@@ -28,19 +28,19 @@ struct TintMap {
 };
 
 struct TypePlan {
-  std::string name{};        // for messages: "types[2] (oak)"
+  std::string name{};       // for messages: "types[2] (oak)"
   std::uint64_t count = 0;  // of random instances
-  Range head{0, 360};       // degrees
+  ValueRange head{0, 360};  // degrees
   bool tilt_to_ground = false;
-  Range pitch{0, 0}, roll{0, 0};        // degrees; of a tilt that is not the ground's
-  Range scale{1, 1};                    // > 0
+  ValueRange pitch{0, 0}, roll{0, 0};   // degrees; of a tilt that is not the ground's
+  ValueRange scale{1, 1};               // > 0
   const ValueMap* scale_map = nullptr;  // 0 is scale.min, 1 is scale.max; otherwise random
   const TintMap* tint_map = nullptr;
   std::uint32_t trunk_material = k_none, leaf_material = k_none, motion = 0;
   PlacementRules rules{};
-  double footprint = 0;          // m at scale 1: in cells this far from the border of the cell, where it fits
-  double spacing = 0;            // m at scale 1: radius of a disc that overlaps no other; 0: not kept apart
-  bool fewer = false;            // when they do not all fit: fewer, instead of none
+  double footprint = 0;  // m at scale 1: in cells this far from the border of the cell, where it fits
+  double spacing = 0;    // m at scale 1: radius of a disc that overlaps no other; 0: not kept apart
+  bool fewer = false;    // when they do not all fit: fewer, instead of none
   std::vector<Instance> manual{};  // by hand, added to the random ones
 };
 
@@ -58,7 +58,7 @@ struct Population {
 
 // Refused: no ground that the rules allow for a type that is to be planted; spacing that leaves no room for
 // all.
-Result<Population> populate(std::span<const TypePlan> types, const Ground& ground, const Area& area,
-                            const Random& random);
+Result<Population> populate(std::span<const TypePlan> types, const TerrainGround& ground,
+                            const PlantedArea& area, const Random& random);
 
 }  // namespace copse

@@ -17,7 +17,7 @@ std::vector<Double3> regular_grid(const TerrainPlan& p) {
   const double sx = p.width / (p.columns - 1), sz = p.depth / (p.rows - 1);
   std::vector<Double3> net;
   if (p.heights) net = sample(*p.heights, p.columns, p.rows);
-  const Area area{0, 0, p.width, p.depth};
+  const PlantedArea area{0, 0, p.width, p.depth};
   tbb::parallel_for(std::size_t{0}, std::size_t{p.rows}, [&](std::size_t r) {
     for (std::size_t c = 0; c < p.columns; ++c) {
       Double3& v = vertices[r * p.columns + c];
@@ -70,7 +70,7 @@ Result<Terrain> make_terrain(const TerrainPlan& plan, const Random& random) {
     for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(vertices[i].y);
     t.heights = std::move(heights);
   }
-  const Ground ground(t);
+  const TerrainGround ground(t);
   if (!(ground.area() > 0) || !(ground.x1() > ground.x0()) || !(ground.z1() > ground.z0()))
     return refuse("", "terrain: seen from above it has no area, so nothing can be planted on it",
                   "give it an extent along both x and z");

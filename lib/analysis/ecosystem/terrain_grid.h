@@ -17,13 +17,13 @@
 namespace copse {
 
 struct TerrainPlan {
-  Double3 origin{};                       // its corner of smallest x and z
+  Double3 origin{};                     // its corner of smallest x and z
   double width = 100, depth = 100;      // along x and z; of a free surface not used
   std::uint32_t columns = 2, rows = 2;  // vertices
   // Any of these, or none for a flat at y = 0:
-  std::optional<NurbsSurface> surface{};   // free: x, y and z from the control points, relative to the origin
-  std::optional<NurbsSurface> heights{};   // y alone: x and z are the grid's
-  const ValueMap* height_map = nullptr;  // linear between pixels; 0 is `low`, 1 is `high`
+  std::optional<NurbsSurface> surface{};  // free: x, y and z from the control points, relative to the origin
+  std::optional<NurbsSurface> heights{};  // y alone: x and z are the grid's
+  const ValueMap* height_map = nullptr;   // linear between pixels; 0 is `low`, 1 is `high`
   double low = 0, high = 1;
   FaultOptions faults{};
 };

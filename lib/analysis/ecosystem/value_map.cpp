@@ -13,7 +13,7 @@ double pixels(double at, double low, double high, std::uint32_t count) {
 
 }  // namespace
 
-double pixel_at(const ValueMap& map, const Area& area, double x, double z) {
+double pixel_at(const ValueMap& map, const PlantedArea& area, double x, double z) {
   if (map.values.empty()) return 0;
   const auto c = std::min(static_cast<std::uint32_t>(pixels(x, area.x0, area.x1, map.width)), map.width - 1);
   const auto r =
@@ -21,7 +21,7 @@ double pixel_at(const ValueMap& map, const Area& area, double x, double z) {
   return static_cast<double>(map.values[std::size_t{r} * map.width + c]);
 }
 
-double smooth_at(const ValueMap& map, const Area& area, double x, double z) {
+double smooth_at(const ValueMap& map, const PlantedArea& area, double x, double z) {
   if (map.values.empty()) return 0;
   const double u = std::clamp(pixels(x, area.x0, area.x1, map.width) - 0.5, 0.0, map.width - 1.0);
   const double v = std::clamp(pixels(z, area.z0, area.z1, map.height) - 0.5, 0.0, map.height - 1.0);

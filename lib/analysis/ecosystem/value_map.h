@@ -15,16 +15,16 @@ struct ValueMap {
 };
 
 // The rectangle that maps lie over.
-struct Area {
+struct PlantedArea {
   double x0 = 0, z0 = 0, x1 = 0, z1 = 0;
   double width() const { return x1 - x0; }
   double depth() const { return z1 - z0; }
 };
 
 // The value of the pixel that holds (x, z); points outside count as on the border. 0 of an empty map.
-double pixel_at(const ValueMap& map, const Area& area, double x, double z);
+double pixel_at(const ValueMap& map, const PlantedArea& area, double x, double z);
 
 // Linear between the centres of pixels.
-double smooth_at(const ValueMap& map, const Area& area, double x, double z);
+double smooth_at(const ValueMap& map, const PlantedArea& area, double x, double z);
 
 }  // namespace copse
