@@ -243,12 +243,18 @@ Kdop<float> store(const Kdop<double>& v, Points points, int growth) {
 
 }  // namespace
 
-std::optional<Enclosed> enclose(const Volume<double>& fitted, Points points) {
+std::optional<Enclosed> enclose(const Volume<double>& fitted, Points points, Points corners) {
   Enclosed best;
-  for (int growth = 0; growth < k_growths; ++growth) {
-    best.volume = std::visit([&](const auto& v) { return Volume<float>(store(v, points, growth)); }, fitted);
-    best.certified = certify(best.volume, points).holds();
-    if (best.certified) return best;
+  // From corners only as long as units in the last place are enough.
+  constexpr int k_corner_growths = 4;
+  for (const Points from : {corners, points}) {
+    if (from.empty()) continue;
+    const bool all = from.data() == points.data();
+    for (int growth = 0; growth < (all ? k_growths : k_corner_growths); ++growth) {
+      best.volume = std::visit([&](const auto& v) { return Volume<float>(store(v, from, growth)); }, fitted);
+      best.certified = certify(best.volume, points).holds();
+      if (best.certified) return best;
+    }
   }
   return std::nullopt;
 }

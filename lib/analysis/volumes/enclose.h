@@ -23,8 +23,10 @@ struct Enclosed {
   bool certified = false;  // by certify.h, on `points`
 };
 
-// points: finite, at least one. None when float32 cannot hold such a volume (coordinates or sizes beyond
-// 3.4e38). O(points), twice or so.
-std::optional<Enclosed> enclose(const Volume<double>& fitted, std::span<const Double3> points);
+// points: finite, at least one; `corners`: those of them that the others lie between (their hull's vertices),
+// to take the sizes from; if they turn out not to be enough, or are left out, all points are used. None when
+// float32 cannot hold such a volume (coordinates or sizes beyond 3.4e38). O(points), twice or so.
+std::optional<Enclosed> enclose(const Volume<double>& fitted, std::span<const Double3> points,
+                                std::span<const Double3> corners = {});
 
 }  // namespace copse

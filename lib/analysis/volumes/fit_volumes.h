@@ -1,0 +1,78 @@
+// fit_volumes: every method by its name, from points to a certified volume in float32.
+//
+// One fitter prepares a set of points once (frame, hull) for all methods that are asked of it. What a method
+// gives is rounded outward and proven on all points (enclose.h), so every result contains them as stored.
+//
+// Source: digest 002, section 4, and its checklist; the methods are in headers of their own.
+#pragma once
+
+#include "lib/analysis/volumes/convex_hull.h"
+#include "lib/analysis/volumes/volume_measures.h"
+#include "lib/formats/result.h"
+#include "lib/formats/volume_numbers.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace copse {
+
+enum class FitQuality {
+  fast,      // closed forms and principal axes
+  balanced,  // a global search for the least volume
+  exact,     // the search, and a lower bound that proves how near it comes
+};
+
+struct FitMethod {
+  VolumeKind kind = VolumeKind::aabb;
+  std::string_view name;  // of this kind: "minimal"
+  bool searches = false;  // for the least volume; the others take constant time a point
+};
+
+// All of them, by kind, the cheapest first.
+std::span<const FitMethod> fit_methods();
+
+struct FitOptions {
+  FitQuality quality = FitQuality::balanced;
+  double seconds = 0;  // for one search; 0: its own limits, which do not depend on the machine
+};
+
+struct FittedVolume {
+  FitMethod method;
+  Volume<float> volume;
+  VolumeMeasures measures;  // of the volume as stored
+  double lower_bound = 0;   // of the interior volume of any volume of this kind round the points; 0: unknown
+  bool certified = false;
+  double seconds = 0;          // for the fit alone; the hull is shared
+  double certify_seconds = 0;  // for rounding it outward and proving it
+};
+
+class VolumeFitter {
+ public:
+  // `triangles` (indices into points) are for the method that weighs the surface; without them it falls back
+  // on the vertices. The span of points must outlive the fitter. Refused: no points, coordinates that are not
+  // finite or that float32 cannot hold.
+  static Result<VolumeFitter> make(std::span<const Double3> points,
+                                   std::span<const std::array<std::uint32_t, 3>> triangles = {});
+
+  const ConvexHull& hull() const;
+  double hull_seconds() const;
+
+  // None when float32 cannot hold the volume (a ball round points near 3.4e38).
+  std::optional<FittedVolume> fit(const FitMethod& method, const FitOptions& options = {}) const;
+
+  struct Prepared;
+
+ private:
+  explicit VolumeFitter(std::shared_ptr<Prepared> prepared) : prepared_(std::move(prepared)) {}
+  std::shared_ptr<Prepared> prepared_;
+};
+
+// A bound proven for one volume of a kind holds for all of that kind round the same points: gives each the
+// best.
+void share_lower_bounds(std::span<FittedVolume> of_one_set);
+
+}  // namespace copse

@@ -1,0 +1,172 @@
+#include "tools/bvfit/fits.h"
+
+#include "tools/bvfit/measured_costs.h"
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+namespace copse::bvfit {
+namespace {
+
+bool holds(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string all_names() {
+  std::string out;
+  for (const FitMethod& m : fit_methods()) {
+    if (out.find(m.name) == std::string::npos) out += fmt::format("{}{}", out.empty() ? "" : ", ", m.name);
+  }
+  return out;
+}
+
+Result<void> check_names(const Options& options) {
+  for (const std::string& name : options.volumes) {
+    if (name == "all" || volume_kind(name)) continue;
+    return fail(Fault::usage, "", fmt::format("--volumes knows no '{}'", name),
+                fmt::format("use all, {}", fmt::join(k_volume_names, ", ")));
+  }
+  for (const std::string& name : options.methods) {
+    const auto all = fit_methods();
+    if (name == "all" || name == "best" ||
+        std::any_of(all.begin(), all.end(), [&](const FitMethod& m) { return m.name == name; }))
+      continue;
+    return fail(Fault::usage, "", fmt::format("--methods knows no '{}'", name),
+                "use all, best, " + all_names());
+  }
+  return {};
+}
+
+// Of each kind: what searches for the least volume, or, where only quick methods are wanted, all of those
+// (the smallest of what they give is kept).
+bool is_best(const FitMethod& m, FitQuality quality) {
+  const auto all = fit_methods();
+  const bool kind_has_quick = std::any_of(
+      all.begin(), all.end(), [&](const FitMethod& o) { return o.kind == m.kind && !o.searches; });
+  return quality == FitQuality::fast ? !m.searches || !kind_has_quick : m.searches;
+}
+
+Candidate candidate_of(const FittedVolume& v) {
+  Candidate c{v.method.kind, v.measures, 0};
+  if (const auto* k = std::get_if<Kdop<float>>(&v.volume)) c.slabs = k->normals.size();
+  return c;
+}
+
+// The smallest of each kind, where only the best of several quick methods is wanted.
+void keep_smallest(std::vector<FittedVolume>& volumes) {
+  std::vector<FittedVolume> kept;
+  for (FittedVolume& v : volumes) {
+    const bool same = !kept.empty() && kept.back().method.kind == v.method.kind;
+    if (!same) {
+      kept.push_back(std::move(v));
+    } else if (v.measures.volume < kept.back().measures.volume) {
+      kept.back() = std::move(v);
+    }
+  }
+  volumes = std::move(kept);
+}
+
+// With --choose aspect only the box, which the ratios come from, and what the tree picks are fitted.
+std::vector<FitMethod> methods_for(const std::vector<FitMethod>& methods, const Choosing& choosing,
+                                   const AspectRatios& ratios) {
+  if (choosing.criterion != Criterion::aspect) return methods;
+  const VolumeKind kind = choosing.aspect.choose(ratios);
+  std::vector<FitMethod> out;
+  for (const FitMethod& m : methods) {
+    if (m.kind == kind) out.push_back(m);
+  }
+  return out.empty() ? methods : out;
+}
+
+AspectRatios ratios_of(const VolumeFitter& fitter) {
+  const auto all = fit_methods();
+  const auto quick =
+      std::find_if(all.begin(), all.end(), [](const FitMethod& m) { return m.kind == VolumeKind::obb; });
+  const auto box = fitter.fit(*quick, {.quality = FitQuality::fast});
+  if (!box) return {};
+  return aspect_ratios(to_double(std::get<OrientedBox<float>>(box->volume).half_extents));
+}
+
+}  // namespace
+
+Result<std::vector<FitMethod>> wanted_methods(const Options& options) {
+  if (auto ok = check_names(options); !ok) return std::unexpected(ok.error());
+  std::vector<FitMethod> out;
+  const bool all_kinds = holds(options.volumes, "all"), all = holds(options.methods, "all"),
+             best = holds(options.methods, "best");
+  for (const FitMethod& m : fit_methods()) {
+    if (!all_kinds && !holds(options.volumes, name_of(m.kind))) continue;
+    if (all || holds(options.methods, m.name) || (best && is_best(m, options.quality))) out.push_back(m);
+  }
+  if (out.empty()) {
+    return fail(Fault::usage, "",
+                fmt::format("none of the --volumes has a method '{}'", fmt::join(options.methods, ", ")),
+                "use --methods best, or name a method of theirs");
+  }
+  return out;
+}
+
+Result<Choosing> choosing(const Options& options) {
+  Choosing c{
+      options.choose, options.costs == "measured" ? measured_costs() : table_costs(), options.expected, {}};
+  if (!options.aspect_tree.empty()) {
+    auto tree = AspectTree::parse(options.aspect_tree);
+    if (!tree) return std::unexpected(tree.error());
+    c.aspect = *tree;
+  }
+  return c;
+}
+
+std::size_t choose_volume(const SetFit& fit, const Choosing& choosing) {
+  std::vector<Candidate> candidates;
+  for (const FittedVolume& v : fit.volumes) candidates.push_back(candidate_of(v));
+  return choose(candidates, choosing.criterion, choosing.costs, choosing.expected, fit.size);
+}
+
+Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods, const Options& options,
+                       const Choosing& choosing) {
+  const auto fitter = VolumeFitter::make(set.points, set.triangles);
+  if (!fitter) return std::unexpected(fitter.error());
+  SetFit fit;
+  fit.name = set.name, fit.part = set.part, fit.index = set.index, fit.motion = set.motion;
+  fit.points = set.points.size(), fit.hull_points = fitter->hull().vertices.size();
+  const PointFrame& frame = fitter->hull().frame;
+  fit.hull_volume = frame.volume_out(fitter->hull().volume);
+  fit.hull_surface = fitter->hull().area * frame.scale * frame.scale;
+  fit.hull_seconds = fitter->hull_seconds();
+  fit.size = length(fitter->hull().box.extent()) * frame.scale;
+  if (choosing.criterion == Criterion::aspect || options.tune) fit.ratios = ratios_of(*fitter);
+  const FitOptions how{options.quality,
+                       options.budget / static_cast<double>(std::max<std::size_t>(1, methods.size()))};
+  for (const FitMethod& m : methods_for(methods, choosing, fit.ratios)) {
+    auto v = fitter->fit(m, how);
+    if (v) fit.volumes.push_back(std::move(*v));
+  }
+  if (fit.volumes.empty()) return refuse("", set.name + " is too large for float32", "use a smaller scale");
+  share_lower_bounds(fit.volumes);
+  if (options.methods == std::vector<std::string>{"best"}) keep_smallest(fit.volumes);
+  fit.chosen = choose_volume(fit, choosing);
+  return fit;
+}
+
+Result<std::vector<SetFit>> fit_sets(std::span<const PartSet> sets, const std::vector<FitMethod>& methods,
+                                     const Options& options, const Choosing& choosing, Stage& stage) {
+  std::vector<std::optional<Result<SetFit>>> results(sets.size());
+  std::atomic<std::size_t> done = 0;
+  tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t i) {
+    results[i] = fit_set(sets[i], methods, options, choosing);
+    stage.progress(static_cast<double>(++done) / static_cast<double>(sets.size()));
+  });
+  std::vector<SetFit> fits;
+  for (auto& result : results) {
+    if (!*result) return std::unexpected(result->error());
+    fits.push_back(std::move(**result));
+  }
+  return fits;
+}
+
+}  // namespace copse::bvfit

@@ -1,0 +1,51 @@
+// The volumes of every part: which methods, in which order, and which of them is chosen.
+#pragma once
+
+#include "lib/analysis/volumes/aspect_tree.h"
+#include "tools/bvfit/input.h"
+#include "tools/bvfit/options.h"
+
+#include <span>
+#include <vector>
+
+namespace copse::bvfit {
+
+struct SetFit {
+  std::string name;
+  VolumePart part = VolumePart::whole;
+  std::uint32_t index = k_none;
+  VolumeMotion motion = VolumeMotion::rest;
+  std::size_t points = 0, hull_points = 0;
+  double hull_volume = 0, hull_surface = 0;  // of a solid hull
+  double size = 0;                           // the diagonal of its box
+  AspectRatios ratios;
+  double hull_seconds = 0;
+  std::vector<FittedVolume> volumes;
+  std::size_t chosen = 0;
+};
+
+// What --volumes and --methods name, by kind, the cheapest method first. An error (usage) for unknown names.
+Result<std::vector<FitMethod>> wanted_methods(const Options& options);
+
+// What the choice goes by.
+struct Choosing {
+  Criterion criterion = Criterion::volume;
+  TestCosts costs;
+  ExpectedCost expected;
+  AspectTree aspect;
+};
+Result<Choosing> choosing(const Options& options);
+
+// Fits all sets, in parallel; the result does not depend on the number of threads. Refused when float32
+// cannot hold the coordinates.
+Result<std::vector<SetFit>> fit_sets(std::span<const PartSet> sets, const std::vector<FitMethod>& methods,
+                                     const Options& options, const Choosing& choosing, Stage& stage);
+
+// One of them.
+Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods, const Options& options,
+                       const Choosing& choosing);
+
+// The index of the volume to test with.
+std::size_t choose_volume(const SetFit& fit, const Choosing& choosing);
+
+}  // namespace copse::bvfit

@@ -1,0 +1,335 @@
+#include "tools/bvfit/input.h"
+
+#include "lib/analysis/leaves/classify.h"
+#include "lib/analysis/volumes/minimal_sphere.h"
+#include "lib/formats/import/import.h"
+#include "lib/formats/import/xyz.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace copse::bvfit {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string extension_of(const fs::path& path) {
+  fs::path p = path;
+  if (p.extension() == ".gz") p = p.stem();
+  std::string e = p.extension().string();
+  std::transform(e.begin(), e.end(), e.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return e;
+}
+
+bool is_tree(const fs::path& path) {
+  const std::string e = extension_of(path);
+  return e == ".tree" || e == ".stree";
+}
+
+// A vertex of a mesh as a program will hold it.
+Result<void> to_float32(std::vector<Double3>& points, std::size_t from, const std::string& name) {
+  for (std::size_t i = from; i < points.size(); ++i) {
+    const Double3 p = rounded_to_float(points[i]);
+    if (!is_finite(p)) {
+      return refuse(name,
+                    fmt::format("vertex {} ({}, {}, {}) is beyond float32", i - from, points[i].x,
+                                points[i].y, points[i].z),
+                    "use a smaller scale");
+    }
+    points[i] = p;
+  }
+  return {};
+}
+
+Result<void> add_points(const fs::path& path, Input& input, Context& context) {
+  auto points = read_xyz(path);
+  if (!points) return std::unexpected(points.error());
+  context.read(path, true);
+  input.points.insert(input.points.end(), points->begin(), points->end());
+  return {};
+}
+
+Result<void> add_mesh(const fs::path& path, std::uint32_t file, Input& input, Context& context) {
+  auto import = import_mesh(path);
+  if (!import) return std::unexpected(import.error());
+  for (std::size_t i = 0; i < import->files.size(); ++i) context.read(import->files[i], i == 0);
+  for (const std::string& warning : import->warnings) context.warn(path.string() + ": " + warning);
+  Mesh& mesh = import->mesh;
+  const std::size_t base = input.points.size();
+  input.points.insert(input.points.end(), mesh.positions.begin(), mesh.positions.end());
+  // Points alone stay as they are written; a mesh's vertices are float32 when anything tests them.
+  if (!mesh.triangles.empty()) {
+    if (auto ok = to_float32(input.points, base, path.string()); !ok) return ok;
+  }
+  const auto parts = static_cast<std::uint32_t>(input.mesh.parts.size());
+  const auto materials = static_cast<std::uint32_t>(input.mesh.materials.size());
+  for (Material m : mesh.materials) {
+    m.texture = k_none;
+    input.mesh.materials.push_back(std::move(m));
+  }
+  for (Part p : mesh.parts) {
+    if (p.material != k_none) p.material += materials;
+    if (p.object.empty()) p.object = p.group;
+    input.mesh.parts.push_back(std::move(p));
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Triangle v = mesh.triangles[t];
+    for (std::uint32_t& i : v) i += static_cast<std::uint32_t>(base);
+    input.mesh.triangles.push_back(v);
+    input.mesh.part_of.push_back(parts + mesh.part_of[t]);
+    input.file_of.push_back(file);
+  }
+  return {};
+}
+
+Result<void> add_tree(const fs::path& path, Input& input, Context& context) {
+  auto file = TreeFile::open(path);
+  if (!file) return std::unexpected(file.error());
+  context.read(path, true);
+  auto tree = file->load();
+  if (!tree) return std::unexpected(tree.error());
+  input.tree = std::move(*tree);
+  input.file = std::move(*file);
+  for (const Float3& v : trunk_vertices(input.tree)) input.points.push_back(to_double(v));
+  input.trunk_points = static_cast<std::uint32_t>(input.points.size());
+  for (const Float3& v : input.tree.leaves.vertices) input.points.push_back(to_double(v));
+  const auto add = [&](const Array<CornerTriangle>& triangles, std::uint32_t base, std::uint32_t part) {
+    for (const CornerTriangle& t : triangles) {
+      input.mesh.triangles.push_back({t.vertex[0] + base, t.vertex[1] + base, t.vertex[2] + base});
+      input.mesh.part_of.push_back(part);
+      input.file_of.push_back(0);
+    }
+  };
+  input.mesh.parts = {{"trunk", "", k_none}, {"leaves", "", k_none}};
+  add(input.tree.trunk.triangles, 0, 0);
+  add(input.tree.leaves.triangles, input.trunk_points, 1);
+  return {};
+}
+
+// Gathers the points of some triangles, each once.
+class Gatherer {
+ public:
+  explicit Gatherer(const Input& input) : input_(input), index_(input.points.size(), k_none) {}
+  void add(const Triangle& t, PartSet& set) {
+    Triangle local{};
+    for (std::size_t c = 0; c < 3; ++c) local[c] = add(t[c], set);
+    set.triangles.push_back(local);
+  }
+  std::uint32_t add(std::uint32_t point, PartSet& set) {
+    if (index_[point] == k_none) {
+      index_[point] = static_cast<std::uint32_t>(set.points.size());
+      set.points.push_back(input_.points[point]);
+      set.source.push_back(point);
+      touched_.push_back(point);
+    }
+    return index_[point];
+  }
+  void finish(PartSet set, std::vector<PartSet>& sets) {
+    for (const std::uint32_t p : touched_) index_[p] = k_none;
+    touched_.clear();
+    if (!set.points.empty()) sets.push_back(std::move(set));
+  }
+
+ private:
+  const Input& input_;
+  std::vector<std::uint32_t> index_;
+  std::vector<std::uint32_t> touched_;
+};
+
+PartSet named(VolumePart part, std::uint32_t index = k_none) {
+  PartSet set;
+  set.part = part, set.index = index;
+  set.name = set_name({.part = part, .index = index});
+  return set;
+}
+
+using Sets = std::vector<PartSet>;
+
+Result<void> add_whole(const Input& input, Sets& sets) {
+  PartSet set = named(VolumePart::whole);
+  set.points = input.points;
+  set.triangles = input.mesh.triangles;
+  sets.push_back(std::move(set));
+  return {};
+}
+
+// Of a tree they are stored apart; of a mesh they are told apart as treeprep does.
+Result<void> add_trunk_or_leaves(const Input& input, bool leaves, Sets& sets) {
+  Gatherer gather(input);
+  PartSet set = named(leaves ? VolumePart::leaves : VolumePart::trunk);
+  if (input.file) {
+    const auto begin = leaves ? input.trunk_points : 0,
+               end = leaves ? static_cast<std::uint32_t>(input.points.size()) : input.trunk_points;
+    for (std::uint32_t p = begin; p < end; ++p) gather.add(p, set);
+    for (std::size_t t = 0; t < input.mesh.triangles.size(); ++t) {
+      if ((input.mesh.part_of[t] == 1) == leaves) gather.add(input.mesh.triangles[t], set);
+    }
+  } else {
+    if (input.mesh.triangles.empty())
+      return refuse(input.name, "points have no trunk and no leaves",
+                    "name a mesh or a tree, or leave --per out");
+    Mesh mesh = input.mesh;
+    mesh.positions = input.points;
+    const auto classes = classify(mesh);
+    if (!classes) return std::unexpected(classes.error());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if ((classes->leaf_of[t] != k_none) == leaves) gather.add(mesh.triangles[t], set);
+    }
+  }
+  gather.finish(std::move(set), sets);
+  return {};
+}
+
+Result<void> needs_tree(const Input& input, const char* what) {
+  if (input.file) return {};
+  return refuse(input.name, fmt::format("a mesh has no {}", what),
+                "make a tree of it first (treeprep), or use --per parts");
+}
+
+Result<void> add_groups(const Input& input, Sets& sets) {
+  if (auto ok = needs_tree(input, "leaf groups"); !ok) return ok;
+  const Leaves& l = input.tree.leaves;
+  if (!l.groups.empty() && (l.order.empty() || l.triangles.empty())) {
+    return refuse(input.name, "the leaves of its groups (LORD, LTRI) were left out",
+                  "prepare the tree with them");
+  }
+  Gatherer gather(input);
+  for (std::uint32_t g = 0; g < l.groups.size(); ++g) {
+    PartSet set = named(VolumePart::group, g);
+    for (std::uint32_t i = 0; i < l.groups[g].count; ++i) {
+      const std::uint32_t leaf = l.order[l.groups[g].first + i];
+      for (std::size_t t = input.tree.first_triangle_of_leaf(leaf);
+           t < input.tree.first_triangle_of_leaf(leaf + 1); ++t) {
+        const auto& v = l.triangles[t].vertex;
+        gather.add(Triangle{v[0] + input.trunk_points, v[1] + input.trunk_points, v[2] + input.trunk_points},
+                   set);
+      }
+    }
+    gather.finish(std::move(set), sets);
+  }
+  return {};
+}
+
+Result<void> add_segments(const Input& input, Sets& sets) {
+  if (auto ok = needs_tree(input, "segments"); !ok) return ok;
+  Gatherer gather(input);
+  for (std::uint32_t s = 0; s < input.tree.segment_count(); ++s) {
+    PartSet set = named(VolumePart::segment, s);
+    for (std::size_t t = input.tree.first_triangle_of_segment(s);
+         t < input.tree.first_triangle_of_segment(s + 1); ++t) {
+      gather.add(Triangle(input.tree.trunk.triangles[t].vertex), set);
+    }
+    gather.finish(std::move(set), sets);
+  }
+  return {};
+}
+
+Result<void> add_cells(const Input& input, Sets&) {
+  if (auto ok = needs_tree(input, "foliage cells"); !ok) return ok;
+  return refuse(input.name, "it has no foliage cells", "make them first (lodbake --cells)");
+}
+
+// A scene of many meshes: every object, and every file where objects have no names.
+Result<void> add_parts(const Input& input, Sets& sets) {
+  if (input.mesh.triangles.empty()) return refuse(input.name, "points have no parts", "name a mesh");
+  std::map<std::pair<std::uint32_t, std::string>, std::vector<std::uint32_t>> members;
+  for (std::uint32_t t = 0; t < input.mesh.triangles.size(); ++t) {
+    members[{input.file_of[t], input.mesh.parts[input.mesh.part_of[t]].object}].push_back(t);
+  }
+  Gatherer gather(input);
+  std::uint32_t index = 0;
+  for (const auto& [key, triangles] : members) {
+    PartSet set;
+    set.name = fmt::format("part {}", index), set.index = index++, set.file = key.first;
+    if (!key.second.empty()) set.name += " " + key.second;
+    for (const std::uint32_t t : triangles) gather.add(input.mesh.triangles[t], set);
+    gather.finish(std::move(set), sets);
+  }
+  return {};
+}
+
+struct Per {
+  const char* name;
+  bool brings_all;  // whole, trunk and leaves come along
+  std::function<Result<void>(const Input&, Sets&)> add;
+};
+
+const std::vector<Per>& pers() {
+  static const std::vector<Per> k_pers{
+      {"whole", false, add_whole},
+      {"trunk", false, [](const Input& i, Sets& s) { return add_trunk_or_leaves(i, false, s); }},
+      {"leaves", false, [](const Input& i, Sets& s) { return add_trunk_or_leaves(i, true, s); }},
+      {"groups", true, add_groups},
+      {"segments", true, add_segments},
+      {"cells", true, add_cells},
+      {"parts", false, add_parts},
+  };
+  return k_pers;
+}
+
+}  // namespace
+
+Result<Input> read_input(const std::vector<fs::path>& paths, Context& context) {
+  Input input;
+  Stage stage = context.stage("read");
+  for (std::uint32_t i = 0; i < paths.size(); ++i) {
+    const fs::path& path = paths[i];
+    if (is_tree(path) && paths.size() > 1) {
+      return fail(Fault::usage, path.string(), "a tree is fitted alone", "run bvfit once a tree");
+    }
+    const Result<void> ok = is_tree(path)                  ? add_tree(path, input, context)
+                            : extension_of(path) == ".xyz" ? add_points(path, input, context)
+                                                           : add_mesh(path, i, input, context);
+    if (!ok) return std::unexpected(ok.error());
+  }
+  input.name = paths.front().string();
+  if (paths.size() > 1) input.name += fmt::format(" (+{} more)", paths.size() - 1);
+  stage.items(input.points.size(), "points");
+  if (input.points.empty())
+    return refuse(input.name, "there is no point in it", "export it with its vertices");
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    if (!is_finite(input.points[i]))
+      return refuse(input.name, fmt::format("point {} is not finite", i), "export it again");
+  }
+  return input;
+}
+
+Result<Sets> part_sets(const Input& input, const std::vector<std::string>& per) {
+  std::vector<bool> wanted(pers().size());
+  for (const std::string& name : per) {
+    std::size_t i = 0;
+    while (i < pers().size() && name != pers()[i].name) ++i;
+    if (i == pers().size()) {
+      return fail(Fault::usage, "", fmt::format("--per knows no '{}'", name),
+                  "use whole, trunk, leaves, groups, segments, cells or parts");
+    }
+    wanted[i] = true;
+    if (pers()[i].brings_all) wanted[0] = wanted[1] = wanted[2] = true;
+  }
+  Sets sets;
+  for (std::size_t i = 0; i < pers().size(); ++i) {
+    if (!wanted[i]) continue;
+    if (auto ok = pers()[i].add(input, sets); !ok) return std::unexpected(ok.error());
+  }
+  return sets;
+}
+
+Result<PartSet> part_named(const Input& input, const std::string& name) {
+  for (const Per& per : pers()) {
+    const std::string singular = std::string(per.name).substr(0, std::string_view(per.name).size() - 1);
+    if (name != per.name && !name.starts_with(singular + " ")) continue;
+    Sets sets;
+    if (auto ok = per.add(input, sets); !ok) return std::unexpected(ok.error());
+    for (PartSet& set : sets) {
+      if (set.name == name) return std::move(set);
+    }
+  }
+  return refuse(input.name, fmt::format("it has no set of points '{}'", name),
+                "name the mesh that the volumes were fitted to");
+}
+
+}  // namespace copse::bvfit

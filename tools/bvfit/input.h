@@ -1,0 +1,51 @@
+// What is to be enclosed: a mesh, a tree or points, and its parts.
+#pragma once
+
+#include "lib/formats/mesh.h"
+#include "lib/formats/result.h"
+#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_volumes.h"
+#include "tools/common/tool.h"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace copse::bvfit {
+
+struct Input {
+  std::string name;  // for messages and the JSON: the first file, "(+2 more)" where there are several
+  std::vector<Double3> points;         // every vertex; of a mesh as float32, relative to the origin of a tree
+  Mesh mesh;                           // its triangles over `points`; none for points alone
+  std::vector<std::uint32_t> file_of;  // of each triangle
+  std::optional<TreeFile> file;        // of a tree
+  Tree tree;
+  std::uint32_t trunk_points = 0;  // of a tree: the trunk's vertices come first
+};
+
+Result<Input> read_input(const std::vector<std::filesystem::path>& paths, Context& context);
+
+// A set of points with a name.
+struct PartSet {
+  std::string name;  // "whole", "group 12", "part Crown"
+  VolumePart part = VolumePart::whole;
+  std::uint32_t index = k_none;
+  VolumeMotion motion = VolumeMotion::rest;
+  std::vector<Double3> points;
+  std::vector<std::uint32_t> source;  // of each point in Input::points; empty: the same
+  std::vector<Triangle> triangles;    // over `points`; may be empty
+  std::uint32_t file = 0;             // of a part of a scene: which input it came in
+  std::vector<Double3> envelope;      // with --sway: points round everywhere that it can be; else empty
+};
+
+// The parts that --per names, in the order whole, trunk, leaves, groups, segments, cells, parts. Groups,
+// segments and cells bring whole, trunk and leaves along. Empty parts are left out. Refused when the input
+// does not have what is asked for.
+Result<std::vector<PartSet>> part_sets(const Input& input, const std::vector<std::string>& per);
+
+// The part of that name; an error when there is none.
+Result<PartSet> part_named(const Input& input, const std::string& name);
+
+}  // namespace copse::bvfit

@@ -1,0 +1,203 @@
+#include "tools/bvfit/run.h"
+
+#include "lib/analysis/volumes/motion_envelope.h"
+#include "tools/bvfit/draw.h"
+#include "tools/bvfit/fits.h"
+#include "tools/bvfit/hierarchy.h"
+#include "tools/bvfit/input.h"
+#include "tools/bvfit/store.h"
+#include "tools/bvfit/sweep.h"
+#include "tools/bvfit/table.h"
+#include "tools/bvfit/verify.h"
+#include "tools/bvfit/volumes_json.h"
+#include "tools/common/outputs.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace copse::bvfit {
+namespace {
+
+bool is_tree_name(const std::filesystem::path& path) {
+  return path.extension() == ".tree" || path.extension() == ".stree";
+}
+
+Result<void> check_options(const Options& options) {
+  if (options.output.empty() || is_stdout(options.output) || is_tree_name(options.output) ||
+      options.output.extension() == ".json")
+    return {};
+  return fail(Fault::usage, options.output.string(), "the output's extension picks its kind",
+              "name it .json, or .tree or .stree to store volumes in a tree");
+}
+
+struct Work {
+  Input input;
+  std::vector<PartSet> parts;
+  std::vector<FitMethod> methods;
+  Choosing choosing;
+  std::vector<SetFit> sets;  // one a part, then one an inner node of the hierarchy
+  std::vector<VolumeNode> nodes;
+};
+
+// With --sway every part has a second set: the envelope of its motion.
+Result<void> add_envelopes(Work& work, double degrees) {
+  if (work.input.tree.header.kind != TreeKind::sensitive || !work.input.file) {
+    return refuse(work.input.name, "only a tree with a hierarchy moves",
+                  "name an .stree, or leave --sway out");
+  }
+  const std::vector<double> reach = sway_reach(work.input.tree, degrees * std::numbers::pi / 180);
+  const std::size_t parts = work.parts.size();
+  for (std::size_t i = 0; i < parts; ++i) {
+    PartSet& part = work.parts[i];
+    std::vector<double> radii;
+    for (std::size_t p = 0; p < part.points.size(); ++p)
+      radii.push_back(reach[part.source.empty() ? p : part.source[p]]);
+    part.envelope = ball_envelope(part.points, radii);
+    PartSet envelope;
+    envelope.part = part.part, envelope.index = part.index, envelope.motion = VolumeMotion::envelope;
+    envelope.name = part.name + " envelope";
+    envelope.points = part.envelope;
+    work.parts.push_back(std::move(envelope));
+  }
+  return {};
+}
+
+Result<void> fit_stage(Work& work, const Options& options, Context& context) {
+  Stage stage = context.stage("fit");
+  auto sets = fit_sets(work.parts, work.methods, options, work.choosing, stage);
+  if (!sets) return std::unexpected(sets.error());
+  work.sets = std::move(*sets);
+  stage.items(work.sets.size(), "sets");
+  return {};
+}
+
+Result<void> hierarchy_stage(Work& work, const Options& options, Context& context) {
+  if (options.hierarchy.empty()) return {};
+  Stage stage = context.stage("hierarchy");
+  auto h = build_hierarchy(options.hierarchy, work.parts, work.input);
+  if (!h) return std::unexpected(h.error());
+  if (auto ok = fit_hierarchy(*h, work.parts, work.methods, options, work.choosing, stage); !ok) return ok;
+  work.nodes = stored_nodes(*h, work.sets);
+  for (SetFit& set : h->inner) work.sets.push_back(std::move(set));
+  return {};
+}
+
+// The aspect tree that comes nearest to the smallest volumes, told beside the one in use.
+std::string tune(const Work& work) {
+  std::vector<AspectSample> samples;
+  for (const SetFit& set : work.sets) {
+    AspectSample s{set.ratios, {}};
+    s.volume.fill(std::numeric_limits<double>::infinity());
+    for (const FittedVolume& v : set.volumes) {
+      double& least = s.volume[static_cast<std::size_t>(v.method.kind)];
+      least = std::min(least, v.measures.volume);
+    }
+    samples.push_back(s);
+  }
+  const AspectTree tuned = tune_aspect_tree(samples);
+  const auto line = [&](const char* what, const AspectTree& tree) {
+    const AspectAgreement a = agreement(tree, samples);
+    return fmt::format("    {:<8} {:>5.1f} % the smallest, {:.3g} % over it on average: {}\n", what,
+                       100 * a.agree, 100 * a.excess, tree.text());
+  };
+  return fmt::format("aspect trees on {} sets\n\n", samples.size()) + line("in use", work.choosing.aspect) +
+         line("tuned", tuned) + "\n";
+}
+
+Result<void> write_output(const Work& work, const Options& options, Context& context) {
+  if (options.output.empty()) return {};
+  Stage stage = context.stage("write");
+  if (!is_tree_name(options.output))
+    return context.write(options.output, volumes_json(work.input, work.sets, options));
+  const auto bytes = tree_with_volumes(work.input, work.sets, work.nodes);
+  if (!bytes) return std::unexpected(bytes.error());
+  stage.items(bytes->size(), "bytes");
+  return context.write(options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+}
+
+Result<void> draw_stage(const Work& work, const Options& options, Context& context) {
+  if (!options.export_glb.empty()) {
+    Stage stage = context.stage("export");
+    const auto glb = volumes_glb(work.input, work.sets, options.export_glb.filename().string());
+    if (!glb) return std::unexpected(glb.error());
+    if (auto ok = context.write(options.export_glb, *glb); !ok) return ok;
+  }
+  if (context.options().html.empty()) return {};
+  Stage stage = context.stage("draw");
+  auto pictures = volume_pictures(work.input, work.sets);
+  if (!pictures) return std::unexpected(pictures.error());
+  context.report().pictures = std::move(*pictures);
+  return {};
+}
+
+Result<void> check_outputs(const Options& options, Context& context) {
+  for (const std::filesystem::path& path : {options.output, options.export_glb}) {
+    if (path.empty()) continue;
+    if (auto ok = context.check_output(path); !ok) return ok;
+  }
+  return {};
+}
+
+// What a person is told beside the table.
+Result<std::string> extras(const Work& work, const Options& options, Context& context) {
+  std::string text;
+  if (options.tune) text += tune(work);
+  if (options.compare_hierarchies) {
+    const auto compared =
+        compare_hierarchies(work.parts, work.sets, work.input, work.methods, options, work.choosing, context);
+    if (!compared) return compared;
+    text += *compared;
+  }
+  if (options.sweep) {
+    std::vector<FitMethod> all;
+    const auto methods = fit_methods();
+    for (const FitMethod& m : methods) {
+      if (std::any_of(work.methods.begin(), work.methods.end(),
+                      [&](const FitMethod& w) { return w.kind == m.kind; }))
+        all.push_back(m);
+    }
+    const auto swept = sweep(work.parts.front(), all, context);
+    if (!swept) return swept;
+    text += *swept;
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<void> run(const Options& options, Context& context) {
+  if (auto ok = check_options(options); !ok) return ok;
+  if (!options.verify.empty()) return verify_volumes(options, context);
+  auto methods = wanted_methods(options);
+  if (!methods) return std::unexpected(methods.error());
+  auto how = choosing(options);
+  if (!how) return std::unexpected(how.error());
+  if (auto ok = check_outputs(options, context); !ok) return ok;
+  auto input = read_input(options.inputs, context);
+  if (!input) return std::unexpected(input.error());
+  auto parts = part_sets(*input, options.per);
+  if (!parts) return std::unexpected(parts.error());
+  Work work{std::move(*input), std::move(*parts), std::move(*methods), std::move(*how), {}, {}};
+  const auto named = [&](Result<void> result) {
+    if (!result && result.error().file.empty()) result.error().file = work.input.name;
+    return result;
+  };
+  if (options.sway > 0) {
+    if (auto ok = add_envelopes(work, options.sway); !ok) return ok;
+  }
+  if (auto ok = named(fit_stage(work, options, context)); !ok) return ok;
+  const auto more = extras(work, options, context);
+  if (!more) return std::unexpected(more.error());
+  if (auto ok = named(hierarchy_stage(work, options, context)); !ok) return ok;
+  report_fits(work.sets, context.report());
+  if (auto ok = write_output(work, options, context); !ok) return ok;
+  if (auto ok = draw_stage(work, options, context); !ok) return ok;
+  if (!context.options().quiet && !is_stdout(options.output))
+    context.print(table_text(work.input, work.sets) + *more);
+  return {};
+}
+
+}  // namespace copse::bvfit

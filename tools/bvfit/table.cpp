@@ -1,0 +1,122 @@
+#include "tools/bvfit/table.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace copse::bvfit {
+namespace {
+
+constexpr std::size_t k_sets_in_full = 4;
+
+std::string excess_text(const FittedVolume& v) {
+  if (v.measures.volume == 0) return "0 %";
+  if (v.lower_bound <= 0) return "unknown";
+  const double excess = 100 * (v.measures.volume / v.lower_bound - 1);
+  return excess < 0.0005 ? "0 %" : fmt::format("{:.3g} %", excess);
+}
+
+std::string seconds_text(double s) {
+  return s < 1e-3 ? fmt::format("{:.0f} us", s * 1e6)
+         : s < 1  ? fmt::format("{:.3g} ms", s * 1e3)
+                  : fmt::format("{:.3g} s", s);
+}
+
+std::string set_text(const SetFit& set) {
+  std::string out = fmt::format("{}: {} points, {} on the hull ({})\n\n", set.name, set.points,
+                                set.hull_points, seconds_text(set.hull_seconds));
+  out += fmt::format("    {:<10} {:<17} {:>12} {:>12} {:>9}  {:<9}\n", "type", "method", "volume",
+                     "over bound", "time", "certified");
+  for (std::size_t i = 0; i < set.volumes.size(); ++i) {
+    const FittedVolume& v = set.volumes[i];
+    out += fmt::format("  {} {:<10} {:<17} {:>12.6g} {:>12} {:>9}  {:<9}\n", i == set.chosen ? '>' : ' ',
+                       name_of(v.method.kind), v.method.name, v.measures.volume, excess_text(v),
+                       seconds_text(v.seconds), v.certified ? "yes" : "NO");
+  }
+  return out + "\n";
+}
+
+// Of many sets: how often each type was chosen, and what it would cost to use one type for all.
+std::string summary_text(std::span<const SetFit> sets) {
+  struct Sum {
+    std::size_t chosen = 0, fitted = 0;
+    double volume = 0;
+  };
+  std::array<Sum, k_volume_kinds> sums{};
+  std::size_t volumes = 0, certified = 0;
+  double best = 0;
+  for (const SetFit& set : sets) {
+    best += set.volumes[set.chosen].measures.volume;
+    ++sums[static_cast<std::size_t>(set.volumes[set.chosen].method.kind)].chosen;
+    std::array<double, k_volume_kinds> least;
+    least.fill(-1);
+    for (const FittedVolume& v : set.volumes) {
+      double& l = least[static_cast<std::size_t>(v.method.kind)];
+      if (l < 0 || v.measures.volume < l) l = v.measures.volume;
+      ++volumes, certified += v.certified;
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      if (least[k] >= 0) ++sums[k].fitted, sums[k].volume += least[k];
+    }
+  }
+  std::string out =
+      fmt::format("{} more sets, {} volumes, {} of them certified\n\n    {:<10} {:>9} {:>14} {:>12}\n",
+                  sets.size(), volumes, certified, "type", "chosen", "sum of volume", "over chosen");
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (sums[k].fitted != sets.size()) continue;
+    out += fmt::format("    {:<10} {:>9} {:>14.6g} {:>11.3g} %\n", k_volume_names[k], sums[k].chosen,
+                       sums[k].volume, best > 0 ? 100 * (sums[k].volume / best - 1) : 0.0);
+  }
+  return out + fmt::format("    {:<10} {:>9} {:>14.6g}\n\n", "chosen", sets.size(), best);
+}
+
+std::vector<std::string> row_of(const SetFit& set, std::size_t i) {
+  const FittedVolume& v = set.volumes[i];
+  return {set.name,
+          std::string(name_of(v.method.kind)),
+          std::string(v.method.name),
+          fmt::format("{:.6g}", v.measures.volume),
+          v.lower_bound > 0 ? fmt::format("{:.6g}", v.lower_bound) : "",
+          excess_text(v),
+          fmt::format("{:.3g}", v.measures.surface),
+          fmt::format("{:.3g}", v.measures.mean_width),
+          fmt::format("{:.3g}", 1e3 * v.seconds),
+          fmt::format("{:.3g}", 1e3 * v.certify_seconds),
+          v.certified ? "yes" : "no",
+          i == set.chosen ? "chosen" : ""};
+}
+
+}  // namespace
+
+std::string table_text(const Input& input, std::span<const SetFit> sets) {
+  const std::size_t full =
+      sets.size() <= k_sets_in_full ? sets.size() : std::min<std::size_t>(3, sets.size());
+  std::string out = fmt::format("{}\n\n", input.name);
+  for (const SetFit& set : sets.first(full)) out += set_text(set);
+  if (full < sets.size()) out += summary_text(sets.subspan(full));
+  return out;
+}
+
+void report_fits(std::span<const SetFit> sets, Report& report) {
+  Table table{"Volumes",
+              {"set", "type", "method", "volume", "lower bound", "over bound", "surface", "mean width",
+               "fit, ms", "certify, ms", "certified", ""},
+              {}};
+  for (const SetFit& set : sets) {
+    for (std::size_t i = 0; i < set.volumes.size(); ++i) table.rows.push_back(row_of(set, i));
+  }
+  report.tables.push_back(std::move(table));
+  for (const FittedVolume& v : sets.empty() ? std::vector<FittedVolume>{} : sets.front().volumes) {
+    if (v.lower_bound <= 0) continue;
+    report.errors.push_back({fmt::format("{} ({}) over its bound", name_of(v.method.kind), v.method.name),
+                             v.measures.volume / v.lower_bound - 1,
+                             "ratio",
+                             {},
+                             {},
+                             {},
+                             "proven lower bound"});
+  }
+}
+
+}  // namespace copse::bvfit

@@ -1,0 +1,238 @@
+#include "tools/bvfit/volumes_json.h"
+
+#include "lib/analysis/volumes/certify.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace copse::bvfit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json list(const Double3& v) {
+  return {v.x, v.y, v.z};
+}
+Json list(const std::array<Double3, 3>& axes) {
+  return {list(axes[0]), list(axes[1]), list(axes[2])};
+}
+
+void put_numbers(Json& j, const Volume<double>& volume) {
+  struct Put {
+    Json& j;
+    void operator()(const DoubleBox& v) const { j["min"] = list(v.min), j["max"] = list(v.max); }
+    void operator()(const BoundingSphere<double>& v) const {
+      j["center"] = list(v.centre), j["radius"] = v.radius;
+    }
+    void operator()(const OrientedBox<double>& v) const {
+      j["center"] = list(v.centre), j["axes"] = list(v.axes), j["half_extents"] = list(v.half_extents);
+    }
+    void operator()(const Capsule<double>& v) const {
+      j["a"] = list(v.a), j["b"] = list(v.b), j["radius"] = v.radius;
+    }
+    void operator()(const Cylinder<double>& v) const {
+      j["a"] = list(v.a), j["b"] = list(v.b), j["radius"] = v.radius;
+    }
+    void operator()(const Lozenge<double>& v) const {
+      j["origin"] = list(v.origin), j["edge0"] = list(v.edge0), j["edge1"] = list(v.edge1),
+      j["radius"] = v.radius;
+    }
+    void operator()(const Ellipsoid<double>& v) const {
+      j["center"] = list(v.centre), j["axes"] = list(v.axes), j["semi_axes"] = list(v.semi_axes);
+    }
+    void operator()(const Kdop<double>& v) const {
+      Json normals = Json::array();
+      for (const Double3& n : v.normals) normals.push_back(list(n));
+      j["normals"] = std::move(normals), j["min"] = v.min, j["max"] = v.max;
+    }
+  };
+  std::visit(Put{j}, volume);
+}
+
+Json volume_json(const FittedVolume& v, bool times) {
+  Json j;
+  j["type"] = name_of(v.method.kind);
+  j["method"] = v.method.name;
+  j["volume"] = v.measures.volume;
+  if (v.lower_bound > 0 || v.measures.volume == 0) {
+    j["lower_bound"] = v.lower_bound;
+  } else {
+    j["lower_bound"] = nullptr;
+  }
+  j["certified"] = v.certified;
+  put_numbers(j, to_double(v.volume));
+  j["surface"] = v.measures.surface;
+  j["mean_width"] = v.measures.mean_width;
+  if (times) j["seconds"] = v.seconds;
+  return j;
+}
+
+const char* criterion_name(Criterion c) {
+  switch (c) {
+    case Criterion::volume:
+      return "volume";
+    case Criterion::weighted:
+      return "weighted";
+    case Criterion::aspect:
+      return "aspect";
+    case Criterion::expected:
+      break;
+  }
+  return "expected";
+}
+
+// --- reading
+// -------------------------------------------------------------------------------------------------
+
+// Takes members out of a volume; the first that is missing or of the wrong shape is remembered.
+class Members {
+ public:
+  explicit Members(const nlohmann::json& j) : j_(j) {}
+
+  double number(const char* name) {
+    const auto at = j_.find(name);
+    if (at == j_.end() || !at->is_number()) return miss(name), 0;
+    return at->get<double>();
+  }
+  Double3 vector(const char* name) {
+    return vector_of(j_.contains(name) ? j_[name] : nlohmann::json(), name);
+  }
+  std::vector<Double3> vectors(const char* name) {
+    std::vector<Double3> out;
+    if (!j_.contains(name) || !j_[name].is_array()) return miss(name), out;
+    for (const auto& v : j_[name]) out.push_back(vector_of(v, name));
+    return out;
+  }
+  std::array<Double3, 3> axes(const char* name) {
+    const auto v = vectors(name);
+    if (v.size() != 3) return miss(name), std::array<Double3, 3>{};
+    return {v[0], v[1], v[2]};
+  }
+  std::vector<double> numbers(const char* name) {
+    std::vector<double> out;
+    if (!j_.contains(name) || !j_[name].is_array()) return miss(name), out;
+    for (const auto& v : j_[name]) {
+      if (!v.is_number()) return miss(name), out;
+      out.push_back(v.get<double>());
+    }
+    return out;
+  }
+  const std::string& missing() const { return missing_; }
+
+ private:
+  Double3 vector_of(const nlohmann::json& v, const char* name) {
+    if (!v.is_array() || v.size() != 3 || !v[0].is_number() || !v[1].is_number() || !v[2].is_number()) {
+      return miss(name), Double3{};
+    }
+    return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
+  }
+  void miss(const char* name) {
+    if (missing_.empty()) missing_ = name;
+  }
+  const nlohmann::json& j_;
+  std::string missing_;
+};
+
+Volume<double> take_volume(VolumeKind kind, Members& m) {
+  switch (kind) {
+    case VolumeKind::aabb:
+      return DoubleBox{m.vector("min"), m.vector("max")};
+    case VolumeKind::sphere:
+      return BoundingSphere<double>{m.vector("center"), m.number("radius")};
+    case VolumeKind::obb:
+      return OrientedBox<double>{m.vector("center"), m.axes("axes"), m.vector("half_extents")};
+    case VolumeKind::capsule:
+      return Capsule<double>{m.vector("a"), m.vector("b"), m.number("radius")};
+    case VolumeKind::cylinder:
+      return Cylinder<double>{m.vector("a"), m.vector("b"), m.number("radius")};
+    case VolumeKind::lozenge:
+      return Lozenge<double>{m.vector("origin"), m.vector("edge0"), m.vector("edge1"), m.number("radius")};
+    case VolumeKind::ellipsoid:
+      return Ellipsoid<double>{m.vector("center"), m.axes("axes"), m.vector("semi_axes")};
+    case VolumeKind::kdop:
+      break;
+  }
+  return Kdop<double>{m.vectors("normals"), m.numbers("min"), m.numbers("max")};
+}
+
+std::string text_of(const nlohmann::json& j, const char* name) {
+  return j.is_object() && j.contains(name) && j[name].is_string() ? j[name].get<std::string>() : "";
+}
+
+Result<ReadVolume> read_volume(const nlohmann::json& j, const std::string& file, const std::string& place) {
+  ReadVolume v;
+  v.type = text_of(j, "type"), v.method = text_of(j, "method");
+  const auto kind = volume_kind(v.type);
+  if (!kind) {
+    return refuse(file, fmt::format("{}: type '{}' is unknown", place, v.type),
+                  fmt::format("use one of {}", fmt::join(k_volume_names, ", ")));
+  }
+  Members members(j);
+  v.volume = take_volume(*kind, members);
+  if (!members.missing().empty()) {
+    return refuse(
+        file,
+        fmt::format("{}: '{}' of this {} is missing or of the wrong shape", place, members.missing(), v.type),
+        "write it as bvfit does");
+  }
+  v.says_certified = j.contains("certified") && j["certified"].is_boolean() && j["certified"].get<bool>();
+  return v;
+}
+
+}  // namespace
+
+std::string volumes_json(const Input& input, std::span<const SetFit> sets, const Options& options) {
+  std::size_t hull_points = sets.empty() ? 0 : sets.front().hull_points;
+  std::string out =
+      fmt::format("{{\"schema\":\"copse.volumes/1\",\"input\":{},\"points\":{},\"hull_points\":{},\n",
+                  Json(input.name).dump(-1, ' ', false, Json::error_handler_t::replace), input.points.size(),
+                  hull_points);
+  if (input.file && input.tree.header.origin != Double3{})
+    out += fmt::format(" \"origin\":{},\n", list(input.tree.header.origin).dump());
+  out += " \"sets\":[\n";
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const SetFit& set = sets[s];
+    out += fmt::format(
+        "  {{\"name\":{},\"points\":{},\"hull_points\":{},\"chosen\":{},\"criterion\":\"{}\",\"volumes\":[\n",
+        Json(set.name).dump(-1, ' ', false, Json::error_handler_t::replace), set.points, set.hull_points,
+        set.chosen, criterion_name(options.choose));
+    for (std::size_t v = 0; v < set.volumes.size(); ++v) {
+      out += "   " + volume_json(set.volumes[v], options.times).dump() +
+             (v + 1 < set.volumes.size() ? ",\n" : "\n");
+    }
+    out += s + 1 < sets.size() ? "  ]},\n" : "  ]}\n";
+  }
+  return out + " ]}\n";
+}
+
+Result<std::vector<ReadSet>> read_volumes_json(const std::string& text, const std::string& file) {
+  // The callback bounds the nesting: a parser of ours would recurse as deep as the file likes.
+  bool deep = false;
+  const auto j = nlohmann::json::parse(
+      text,
+      [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+        return deep |= depth > 64, depth <= 64;
+      },
+      false);
+  if (j.is_discarded() || deep || !j.is_object()) {
+    return refuse(file, "this is no JSON object", "name a volumes file (bvfit -o oak.volumes.json)");
+  }
+  if (!j.contains("sets") || !j["sets"].is_array())
+    return refuse(file, "it has no \"sets\"", "name a volumes file (schema copse.volumes/1)");
+  std::vector<ReadSet> sets;
+  for (const auto& s : j["sets"]) {
+    ReadSet set{text_of(s, "name").empty() ? "whole" : text_of(s, "name"), {}};
+    if (!s.is_object() || !s.contains("volumes") || !s["volumes"].is_array()) {
+      return refuse(file, fmt::format("set {} has no \"volumes\"", sets.size()), "write it as bvfit does");
+    }
+    for (const auto& v : s["volumes"]) {
+      auto volume = read_volume(v, file, fmt::format("set '{}', volume {}", set.name, set.volumes.size()));
+      if (!volume) return std::unexpected(volume.error());
+      set.volumes.push_back(std::move(*volume));
+    }
+    sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
+}  // namespace copse::bvfit
