@@ -42,7 +42,7 @@ TEST(FitVolumes, EveryKindHasAMethodThatSearchesAndNamesAreUnique) {
 }
 
 TEST(FitVolumes, NoPointOfTheWholeBatteryIsOutsideAnyVolumeAsStored) {
-  for (const NamedPoints& set : battery::all()) {
+  for (const BatterySet& set : battery::all()) {
     for (const FittedVolume& v : fit_all(set.points)) {
       EXPECT_TRUE(v.certified) << set.name << ": " << name_of(v.method.kind) << " " << v.method.name;
       EXPECT_TRUE(certify(v.volume, set.points).holds())
@@ -54,7 +54,7 @@ TEST(FitVolumes, NoPointOfTheWholeBatteryIsOutsideAnyVolumeAsStored) {
 }
 
 TEST(FitVolumes, TheSearchIsNeverWorseThanTheQuickMethods) {
-  for (const NamedPoints& set : battery::all()) {
+  for (const BatterySet& set : battery::all()) {
     const auto all = fit_all(set.points);
     for (const FittedVolume& searched : all) {
       if (!searched.method.searches || searched.method.kind == VolumeKind::kdop) continue;

@@ -43,6 +43,14 @@ Float3 narrow(const Double3& p) {
   return {x, y, z};
 }
 
+// A direction whose components that are nothing but rounding (2^-46 of the largest) are 0: then what is flat in
+// a coordinate plane has no thickness.
+Float3 narrow_direction(const Double3& d) {
+  const double noise = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) * 0x1p-46;
+  const auto cleaned = [&](double x) { return std::abs(x) <= noise ? 0 : x; };
+  return narrow({cleaned(d.x), cleaned(d.y), cleaned(d.z)});
+}
+
 float unit_of(float size) {
   return std::nextafter(size, k_infinity) - size;
 }
@@ -83,7 +91,7 @@ BoundingSphere<float> store(const BoundingSphere<double>& v, Points points, int 
 
 OrientedBox<float> store(const OrientedBox<double>& v, Points points, int growth) {
   OrientedBox<float> box;
-  for (int i = 0; i < 3; ++i) box.axes[i] = narrow(v.axes[i]);
+  for (int i = 0; i < 3; ++i) box.axes[i] = narrow_direction(v.axes[i]);
   // The middle of what the rounded axes span, from the fitted centre.
   const Near about_fit(points, narrow(v.centre));
   Double3 centre = to_double(narrow(v.centre));
@@ -125,7 +133,7 @@ Capsule<float> store(const Capsule<double>& v, Points points, int growth) {
 }
 
 Lozenge<float> store(const Lozenge<double>& v, Points points, int growth) {
-  Lozenge<float> l{narrow(v.origin), narrow(v.edge0), narrow(v.edge1), 0};
+  Lozenge<float> l{narrow(v.origin), narrow_direction(v.edge0), narrow_direction(v.edge1), 0};
   const Near near(points, l.origin);
   const Double3 e0 = near.direction(to_double(l.edge0)), e1 = near.direction(to_double(l.edge1));
   double squared = 0;
@@ -187,7 +195,7 @@ double reach_of(const std::vector<Double3>& components, const Double3& semi) {
 Ellipsoid<float> store(const Ellipsoid<double>& v, Points points, int growth) {
   Ellipsoid<float> e;
   e.centre = narrow(v.centre);
-  for (int i = 0; i < 3; ++i) e.axes[i] = narrow(v.axes[i]);
+  for (int i = 0; i < 3; ++i) e.axes[i] = narrow_direction(v.axes[i]);
   const Near near(points, e.centre);
   std::vector<Double3> components;
   components.reserve(points.size());

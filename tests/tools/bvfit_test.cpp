@@ -1,0 +1,320 @@
+#include "lib/formats/atomic_file.h"
+#include "lib/formats/import/import.h"
+#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_volumes.h"
+#include "tests/formats/tampering.h"
+#include "tests/formats/tree_maker.h"
+#include "tests/tools/process.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace copse {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* k_cube =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
+    "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+
+class Bvfit : public testing::Test {
+ protected:
+  static Outcome run(std::vector<std::string> arguments, const char* tool = "bvfit") {
+    arguments.insert(arguments.begin(), tool);
+    return run_process(arguments);
+  }
+  std::string cube() const { return save("cube.obj", k_cube); }
+  std::string save(const std::string& name, const std::string& text) const {
+    write_text(folder_.path() / name, text);
+    return folder_.file(name);
+  }
+  std::string tree(std::uint64_t seed = 1) const {
+    const auto bytes = encode_tree(
+        make_tree({.radii = 30, .leaves = 40, .groups = 9, .ring = 5, .segment = 10, .leaf = 2}, seed));
+    EXPECT_TRUE(bytes);
+    EXPECT_TRUE(write_file(folder_.path() / "oak.stree", std::span<const std::uint8_t>(*bytes)));
+    return folder_.file("oak.stree");
+  }
+  json fitted(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"-o", folder_.file("out.json"), "-q"});
+    const Outcome o = run(arguments);
+    EXPECT_EQ(o.status, 0) << o.err;
+    return json::parse(read_text(folder_.path() / "out.json"));
+  }
+  static const json& of(const json& set, const std::string& type, const std::string& method) {
+    for (const json& v : set["volumes"]) {
+      if (v["type"] == type && v["method"] == method) return v;
+    }
+    ADD_FAILURE() << type << " " << method << " is missing";
+    return set["volumes"][0];
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Bvfit, ACubeHasTheVolumesThatItMustHave) {
+  const json j = fitted({cube(), "--methods", "all"});
+  EXPECT_EQ(j["schema"], "copse.volumes/1");
+  EXPECT_EQ(j["points"], 8);
+  EXPECT_EQ(j["hull_points"], 8);
+  const json& set = j["sets"][0];
+  EXPECT_EQ(set["name"], "whole");
+  EXPECT_EQ(set["criterion"], "volume");
+  EXPECT_NEAR(of(set, "aabb", "exact")["volume"].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(of(set, "obb", "minimal")["volume"].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(of(set, "sphere", "minimal")["volume"].get<double>(), 2.720699046, 1e-6);
+  EXPECT_LE(of(set, "capsule", "minimal")["volume"].get<double>(), 2.63945038 * 1.01);
+  EXPECT_LE(of(set, "lozenge", "minimal")["volume"].get<double>(), 2.444035895 * 1.01);
+  EXPECT_EQ(set["volumes"][set["chosen"].get<std::size_t>()]["type"],
+            "aabb");  // as small as the box, and cheaper
+  for (const json& v : set["volumes"]) {
+    EXPECT_TRUE(v["certified"].get<bool>());
+    if (v["lower_bound"].is_number()) {
+      EXPECT_LE(v["lower_bound"].get<double>(), v["volume"].get<double>());
+    }
+    EXPECT_FALSE(v.contains("seconds"));
+  }
+}
+
+TEST_F(Bvfit, NumbersAreFloat32AndReadTheSameAsDoubles) {
+  const json j = fitted({cube()});
+  std::size_t seen = 0;
+  const auto look = [&](const auto& self, const json& value) -> void {
+    if (value.is_array()) {
+      for (const json& x : value) self(self, x);
+    } else {
+      const double x = value.get<double>();
+      EXPECT_EQ(static_cast<double>(static_cast<float>(x)), x);
+      ++seen;
+    }
+  };
+  for (const json& v : j["sets"][0]["volumes"]) {
+    for (const char* member : {"min", "max", "center", "radius", "axes", "half_extents", "a", "b", "origin",
+                               "edge0", "edge1", "semi_axes", "normals"}) {
+      if (v.contains(member)) look(look, v[member]);
+    }
+  }
+  EXPECT_GT(seen, 30u);
+}
+
+TEST_F(Bvfit, TheFileIsTheSameForAnyNumberOfThreadsAndOnlyTimesChangeIt) {
+  const std::string oak = tree();
+  for (const char* jobs : {"1", "4"}) {
+    ASSERT_EQ(run({oak, "--per", "groups", "-j", jobs, "-q", "-o", folder_.file(std::string(jobs) + ".json")})
+                  .status,
+              0);
+  }
+  EXPECT_EQ(read_text(folder_.path() / "1.json"), read_text(folder_.path() / "4.json"));
+  const json j = fitted({cube(), "--times"});
+  for (const json& v : j["sets"][0]["volumes"]) EXPECT_TRUE(v["seconds"].is_number());
+}
+
+TEST_F(Bvfit, TheTableTellsAPersonWhatWasChosen) {
+  const Outcome o = run({cube()});
+  EXPECT_EQ(o.status, 0) << o.err;
+  for (const char* part :
+       {"whole: 8 points, 8 on the hull", "type", "method", "certified", "> aabb", "sphere     minimal"}) {
+    EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
+  }
+  EXPECT_EQ(run({cube(), "-q"}).out, "");
+}
+
+TEST_F(Bvfit, JsonGoesToStdoutAlone) {
+  const Outcome o = run({cube(), "-o", "-"});
+  EXPECT_EQ(json::parse(o.out)["schema"], "copse.volumes/1");
+}
+
+TEST_F(Bvfit, EveryPartOfATreeIsFittedStoredAndVerified) {
+  const std::string oak = tree(), out = folder_.file("oak.bv.stree");
+  const Outcome o =
+      run({oak, "--per", "groups,segments", "--hierarchy", "kd4", "--quality", "fast", "-o", out});
+  ASSERT_EQ(o.status, 0) << o.err;
+  const auto file = TreeFile::open(out);
+  ASSERT_TRUE(file);
+  EXPECT_TRUE(file->verify().empty()) << file->verify().front();
+  const auto v = load_volumes(*file);
+  ASSERT_TRUE(v) << v.error().what;
+  std::array<std::size_t, k_volume_parts> parts{};
+  for (const VolumeSet& s : v->sets) ++parts[static_cast<std::size_t>(s.part)];
+  EXPECT_EQ(parts[0], 1u);
+  EXPECT_EQ(parts[1], 1u);
+  EXPECT_EQ(parts[2], 1u);
+  EXPECT_EQ(parts[3], 9u);
+  EXPECT_GT(parts[4], 20u);
+  EXPECT_GT(parts[6], 3u);
+  ASSERT_FALSE(v->nodes.empty());
+  EXPECT_EQ(v->sets[v->nodes[0].set].part, VolumePart::node);
+  for (const VolumeRecord& r : v->volumes) EXPECT_EQ(r.flags, VolumeRecord::certified);
+  EXPECT_TRUE(same(*file->load(), *TreeFile::open(oak)->load()));
+  const Outcome verified = run({"--verify", out, oak});
+  EXPECT_EQ(verified.status, 0) << verified.err;
+  EXPECT_NE(verified.out.find("group 3"), std::string::npos);
+  EXPECT_EQ(run({out, "--verify"}, "treedump").status, 0);
+  EXPECT_NE(run({out}, "treedump").out.find("bounding volumes"), std::string::npos);
+}
+
+TEST_F(Bvfit, VerifyNamesTheWorstPointOfAVolumeThatIsTooSmall) {
+  const std::string mesh = cube();
+  json j = fitted({mesh});
+  for (json& v : j["sets"][0]["volumes"]) {
+    if (v["type"] == "sphere") v["radius"] = v["radius"].get<double>() * 0.9;
+    if (v["type"] == "aabb") v["max"][0] = std::nextafter(1.0, 0.0);
+  }
+  const std::string file = save("small.json", j.dump());
+  const Outcome o = run({"--verify", file, mesh});
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(line_count(o.err), 1u);
+  EXPECT_NE(o.err.find("2 of "), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("the worst is sphere (minimal) of 'whole': point 0 (0, 0, 0)"), std::string::npos)
+      << o.err;
+  EXPECT_NE(o.out.find("leaves 8 of 8 points outside"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("leaves 4 of 8 points outside"), std::string::npos) << o.out;
+}
+
+TEST_F(Bvfit, VerifyJudgesWhatOthersWrote) {
+  const std::string mesh = cube();
+  const std::string good = save("good.json", R"({"sets":[{"volumes":[
+    {"type":"sphere","center":[0.5,0.5,0.5],"radius":0.8660254037844388},
+    {"type":"lozenge","origin":[0,0,0.5],"edge0":[1,0,0],"edge1":[0,1,0],"radius":0.5},
+    {"type":"kdop","normals":[[1,0,0],[0,2,0],[0,0,1]],"min":[0,0,0],"max":[1,2,1]}]}]})");
+  EXPECT_EQ(run({"--verify", good, mesh}).status, 0) << run({"--verify", good, mesh}).err;
+  // a radius rounded down, as all libraries leave it
+  const std::string nearly = save(
+      "nearly.json",
+      R"({"sets":[{"volumes":[{"type":"sphere","center":[0.5,0.5,0.5],"radius":0.8660254037844386}]}]})");
+  EXPECT_EQ(run({"--verify", nearly, mesh}).status, 1);
+  const std::pair<const char*, const char*> wrong[] = {
+      {"[1,2", "no JSON"},
+      {"{}", "no \"sets\""},
+      {R"({"sets":[{"volumes":[{"type":"ball"}]}]})", "type 'ball' is unknown"},
+      {R"({"sets":[{"volumes":[{"type":"sphere","center":[1,2],"radius":1}]}]})", "'center' of this sphere"},
+      {R"({"sets":[{"name":"group 1","volumes":[]}]})", "a mesh has no leaf groups"},
+      {R"({"sets":[{"name":"crown","volumes":[]}]})", "no set of points 'crown'"},
+      {R"({"sets":[{"volumes":[{"type":"sphere","center":[0,0,0],"radius":-9}]}]})", "leave points outside"},
+      {R"({"sets":[{"volumes":[{"type":"sphere","center":[0,0,0],"radius":1e999}]}]})", "no JSON"}};
+  for (const auto& [text, says] : wrong) {
+    const Outcome o = run({"--verify", save("wrong.json", text), mesh});
+    EXPECT_EQ(o.status, 1) << text;
+    EXPECT_EQ(line_count(o.err), 1u) << o.err;
+    EXPECT_NE(o.err.find(says), std::string::npos) << o.err;
+  }
+  const std::string deep = save("deep.json", std::string(100000, '['));
+  EXPECT_EQ(run({"--verify", deep, mesh}).status, 1);
+}
+
+TEST_F(Bvfit, PointFilesAreReadInDoubleAndFlatOnesHaveNoVolume) {
+  const json line = fitted({save("line.xyz", "0.1 0.2 0.3\n0.2 0.4 0.6\n0.3 0.6 0.9\n")});
+  EXPECT_EQ(line["points"], 3);
+  for (const json& v : line["sets"][0]["volumes"]) EXPECT_TRUE(v["certified"].get<bool>()) << v.dump();
+  const json one = fitted({save("one.xyz", "1 2 3\n")});
+  EXPECT_EQ(of(one["sets"][0], "sphere", "minimal")["radius"].get<double>(), 0);
+  EXPECT_EQ(of(one["sets"][0], "obb", "minimal")["half_extents"], json({0.0, 0.0, 0.0}));
+  const json grid = fitted({save("grid.xyz", "0 0 0\n1 0 0\n0 2 0\n1 2 0\n")});
+  EXPECT_EQ(of(grid["sets"][0], "obb", "minimal")["volume"].get<double>(), 0);
+  EXPECT_EQ(of(grid["sets"][0], "lozenge", "minimal")["volume"].get<double>(), 0);
+}
+
+TEST_F(Bvfit, ChoicesFollowTheirCriterion) {
+  const std::string mesh = cube();
+  const auto type = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), mesh);
+    const json set = fitted(arguments)["sets"][0];
+    return set["volumes"][set["chosen"].get<std::size_t>()]["type"].get<std::string>();
+  };
+  EXPECT_EQ(type({"--choose", "volume"}), "aabb");
+  EXPECT_EQ(type({"--choose", "weighted", "--volumes", "sphere,lozenge"}), "sphere");
+  EXPECT_EQ(type({"--choose", "volume", "--volumes", "sphere,lozenge"}), "lozenge");
+  EXPECT_EQ(type({"--choose", "expected", "--content-cost", "0"}), "sphere");
+  EXPECT_EQ(type({"--choose", "aspect"}), "sphere");
+  EXPECT_EQ(type({"--choose", "aspect", "--aspect-tree", "capsule"}), "capsule");
+  // only what the tree picks is fitted
+  EXPECT_EQ(fitted({mesh, "--choose", "aspect", "--aspect-tree", "capsule"})["sets"][0]["volumes"].size(),
+            1u);
+  EXPECT_NE(run({mesh, "--choose", "expected", "--costs", "measured"}).status, 70);
+}
+
+TEST_F(Bvfit, TheDrawnVolumesAreAMeshRoundTheMesh) {
+  const std::string glb = folder_.file("cube.glb");
+  ASSERT_EQ(run({cube(), "--export-glb", glb, "-q"}).status, 0);
+  const auto import = import_mesh(glb);
+  ASSERT_TRUE(import) << import.error().what;
+  EXPECT_GT(import->mesh.parts.size(), 4u);
+  const DoubleBox box = bounds(import->mesh);
+  EXPECT_LT(box.min.x, 0);
+  EXPECT_GT(box.max.y, 1);
+}
+
+TEST_F(Bvfit, ThePageShowsPicturesAndTheSweepItsCurves) {
+  const std::string page = folder_.file("cube.html"), report = folder_.file("cube.report.json");
+  const Outcome o = run({cube(), "--sweep", "--html", page, "--report", report});
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.out.find("error against time"), std::string::npos);
+  const std::string html = read_text(page);
+  EXPECT_NE(html.find("Volumes round whole, from the side"), std::string::npos);
+  EXPECT_NE(html.find("volume / best - 1"), std::string::npos);
+  const json j = json::parse(read_text(report));
+  EXPECT_GT(j["curves"].size(), 3u);
+  EXPECT_GT(j["curves"][2]["points"].size(), 2u);
+}
+
+TEST_F(Bvfit, HierarchiesAreComparedWithTheDissertation) {
+  const Outcome o = run({tree(), "--per", "groups", "--quality", "fast", "--compare-hierarchies", "--tune"});
+  ASSERT_EQ(o.status, 0) << o.err;
+  for (const char* part :
+       {"kd16", "rtree8", "clusters", "original", "flat", "19 h 26 min", "aspect trees on"}) {
+    EXPECT_NE(o.out.find(part), std::string::npos) << part;
+  }
+}
+
+TEST_F(Bvfit, SwayingPartsHaveASecondVolumeRoundTheirMotion) {
+  const json j = fitted({tree(), "--per", "groups", "--sway", "10", "--quality", "fast"});
+  double rest = 0, envelope = 0;
+  for (const json& set : j["sets"]) {
+    if (set["name"] == "whole") rest = of(set, "sphere", "minimal")["volume"];
+    if (set["name"] == "whole envelope") envelope = of(set, "sphere", "minimal")["volume"];
+  }
+  EXPECT_GT(rest, 0);
+  EXPECT_GT(envelope, rest * 1.05);
+}
+
+TEST_F(Bvfit, AScenesObjectsAreItsParts) {
+  const std::string mesh =
+      save("scene.obj", std::string("o first\n") + k_cube +
+                            "o second\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 9 10 11\nf 9 10 12\n");
+  const json j = fitted({mesh, cube(), "--per", "whole,parts"});
+  ASSERT_EQ(j["sets"].size(), 4u);
+  EXPECT_EQ(j["sets"][1]["name"], "part 0 first");
+  EXPECT_EQ(j["sets"][2]["points"], 4);
+}
+
+TEST_F(Bvfit, MistakesAreOneLineWithTheRightStatus) {
+  const std::string mesh = cube();
+  const std::tuple<std::vector<std::string>, int, const char*> mistakes[] = {
+      {{mesh, "--volumes", "ball"}, 2, "'ball'"},
+      {{mesh, "--methods", "magic"}, 2, "'magic'"},
+      {{mesh, "--per", "twigs"}, 2, "'twigs'"},
+      {{mesh, "--per", "groups"}, 1, "a mesh has no leaf groups"},
+      {{mesh, "--hierarchy", "kd4"}, 2, "needs parts"},
+      {{tree(), "--per", "groups", "--hierarchy", "kd5"}, 2, "'kd5'"},
+      {{mesh, "--sway", "5"}, 1, "moves"},
+      {{mesh, "-o", folder_.file("x.stree")}, 1, "in a tree only"},
+      {{mesh, "-o", folder_.file("x.txt")}, 2, "extension"},
+      {{mesh, "--aspect-tree", "ratio9"}, 2, "character 1"},
+      {{folder_.file("none.obj")}, 3, "none.obj"},
+      {{save("bad.xyz", "1 2 3\n1 nan 3\n")}, 1, "line 2"},
+      {{save("empty.xyz", "# nothing\n")}, 1, "no point"},
+      {{save("huge.xyz", "1e200 0 0\n0 1e200 0\n")}, 1, "float32"},
+  };
+  for (const auto& [arguments, status, says] : mistakes) {
+    const Outcome o = run(arguments);
+    EXPECT_EQ(o.status, status) << says << ": " << o.err;
+    EXPECT_EQ(line_count(o.err), 1u) << o.err;
+    EXPECT_NE(o.err.find(says), std::string::npos) << o.err;
+    EXPECT_EQ(o.out, "");
+  }
+}
+
+}  // namespace
+}  // namespace copse
