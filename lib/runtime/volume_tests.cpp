@@ -254,6 +254,8 @@ bool crosses_rectangle(const Core& c, const Float3& p, const Float3& d) {
   return t0 >= 0 && t0 <= dot(c.edge0, c.edge0) && t1 >= 0 && t1 <= dot(c.edge1, c.edge1);
 }
 bool hit(const Core& whole, const FloatRay& ray) {
+  const float scale = sum_of(ray.origin - whole.centre()) + whole.reach();
+  if (!(scale * scale > k_tiny) || !std::isfinite(scale * scale)) return true;  // squares mean nothing
   const Stretch s = stretch_of(ray, whole.centre(), whole.reach());
   if (s.from > s.to) return s.from - s.to <= s.room;
   Core c = whole;

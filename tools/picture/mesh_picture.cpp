@@ -74,7 +74,7 @@ Image draw_mesh(const Mesh& mesh, const MeshPicture& what, OrthographicView view
 Result<ReportPicture> draw_picture(const Mesh& mesh, const OrthographicView& view, const MeshPicture& what) {
   const auto png = encode_png(draw_mesh(mesh, what, view));
   if (!png) return std::unexpected(png.error());
-  Picture picture{what.title, what.caption, ""};
+  ReportPicture picture{what.title, what.caption, ""};
   picture.svg = fmt::format(
       R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img" stroke-width="1">)"
       R"(<title>{2}</title><image width="{0}" height="{1}" href="data:image/png;base64,{3}"/>{4}</svg>)",

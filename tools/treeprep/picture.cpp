@@ -56,7 +56,8 @@ std::string draw_groups(const std::vector<LeafGroup>& groups, const Double3& ori
   return R"(<g fill="#1277c2" fill-opacity=".06" stroke="#1277c2" stroke-opacity=".7">)" + svg + "</g>";
 }
 
-Result<std::vector<ReportPicture>> pictures(const Mesh& mesh, const Classification& classes, MeshPicture what) {
+Result<std::vector<ReportPicture>> pictures(const Mesh& mesh, const Classification& classes,
+                                            MeshPicture what) {
   std::vector<ReportPicture> out;
   const DoubleBox box = bounds(mesh);
   const std::string title = what.title;
