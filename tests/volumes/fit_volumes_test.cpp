@@ -36,7 +36,7 @@ TEST(FitVolumes, EveryKindHasAMethodThatSearchesAndNamesAreUnique) {
   for (const FitMethod& m : fit_methods()) {
     EXPECT_TRUE(names.insert({m.kind, m.name}).second) << m.name;
     EXPECT_LE(m.name.size(), 23u);  // a file holds 24 characters
-    if (m.searches) searched.insert(m.kind);
+    if (m.least) searched.insert(m.kind);
   }
   for (const auto& [kind, name] : names) EXPECT_TRUE(searched.contains(kind)) << name_of(kind);
 }
@@ -57,7 +57,7 @@ TEST(FitVolumes, TheSearchIsNeverWorseThanTheQuickMethods) {
   for (const BatterySet& set : battery::all()) {
     const auto all = fit_all(set.points);
     for (const FittedVolume& searched : all) {
-      if (!searched.method.searches || searched.method.kind == VolumeKind::kdop) continue;
+      if (!searched.method.least || searched.method.kind == VolumeKind::kdop) continue;
       for (const FittedVolume& quick : all) {
         if (quick.method.kind != searched.method.kind) continue;
         double size = 0;
@@ -91,7 +91,7 @@ TEST(FitVolumes, NotOneByteDependsOnTheOrderOrRepetitionOfThePoints) {
   points.insert(points.end(), points.begin(), points.begin() + 50);
   const auto after = fit_all(points);
   for (std::size_t i = 0; i < before.size(); ++i) {
-    if (!before[i].method.searches) continue;  // a mean depends on repetition, and sums on the order
+    if (!before[i].method.least) continue;  // a mean depends on repetition, and sums on the order
     EXPECT_EQ(before[i].volume, after[i].volume)
         << name_of(before[i].method.kind) << " " << before[i].method.name;
     EXPECT_EQ(before[i].lower_bound, after[i].lower_bound);

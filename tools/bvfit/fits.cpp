@@ -32,11 +32,12 @@ Result<void> check_names(const Options& options) {
   }
   for (const std::string& name : options.methods) {
     const auto all = fit_methods();
-    if (name == "all" || name == "best" ||
-        std::any_of(all.begin(), all.end(), [&](const FitMethod& m) { return m.name == name; }))
-      continue;
-    return fail(Fault::usage, "", fmt::format("--methods knows no '{}'", name),
-                "use all, best, " + all_names());
+    const bool known =
+        name == "all" || name == "best" || kdop_method(name) ||
+        std::any_of(all.begin(), all.end(), [&](const FitMethod& m) { return m.name == name; });
+    if (!known)
+      return fail(Fault::usage, "", fmt::format("--methods knows no '{}'", name),
+                  "use all, best, the even k of a k-DOP, " + all_names());
   }
   return {};
 }
@@ -45,9 +46,9 @@ Result<void> check_names(const Options& options) {
 // (the smallest of what they give is kept).
 bool is_best(const FitMethod& m, FitQuality quality) {
   const auto all = fit_methods();
-  const bool kind_has_quick = std::any_of(
-      all.begin(), all.end(), [&](const FitMethod& o) { return o.kind == m.kind && !o.searches; });
-  return quality == FitQuality::fast ? !m.searches || !kind_has_quick : m.searches;
+  const bool kind_has_quick =
+      std::any_of(all.begin(), all.end(), [&](const FitMethod& o) { return o.kind == m.kind && o.quick; });
+  return quality == FitQuality::fast ? m.quick || !kind_has_quick : m.least;
 }
 
 Candidate candidate_of(const FittedVolume& v) {
@@ -101,6 +102,13 @@ Result<std::vector<FitMethod>> wanted_methods(const Options& options) {
   for (const FitMethod& m : fit_methods()) {
     if (!all_kinds && !holds(options.volumes, name_of(m.kind))) continue;
     if (all || holds(options.methods, m.name) || (best && is_best(m, options.quality))) out.push_back(m);
+  }
+  const bool slabs = all_kinds || holds(options.volumes, name_of(VolumeKind::kdop));
+  for (const std::string& name : options.methods) {
+    const auto method = kdop_method(name);
+    const bool there =
+        std::any_of(out.begin(), out.end(), [&](const FitMethod& m) { return m.name == name; });
+    if (slabs && method && !there) out.push_back(*method);
   }
   if (out.empty()) {
     return fail(Fault::usage, "",

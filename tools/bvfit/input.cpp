@@ -1,6 +1,7 @@
 #include "tools/bvfit/input.h"
 
 #include "lib/analysis/leaves/classify.h"
+#include "lib/analysis/tree/tree_parts.h"
 #include "lib/analysis/volumes/minimal_sphere.h"
 #include "lib/formats/import/import.h"
 #include "lib/formats/import/xyz.h"
@@ -94,9 +95,9 @@ Result<void> add_tree(const fs::path& path, Input& input, Context& context) {
   if (!tree) return std::unexpected(tree.error());
   input.tree = std::move(*tree);
   input.file = std::move(*file);
-  for (const Float3& v : trunk_vertices(input.tree)) input.points.push_back(to_double(v));
-  input.trunk_points = static_cast<std::uint32_t>(input.points.size());
-  for (const Float3& v : input.tree.leaves.vertices) input.points.push_back(to_double(v));
+  const TreeParts parts(input.tree);
+  input.points = parts.points();
+  input.trunk_points = parts.trunk_points();
   const auto add = [&](const Array<CornerTriangle>& triangles, std::uint32_t base, std::uint32_t part) {
     for (const CornerTriangle& t : triangles) {
       input.mesh.triangles.push_back({t.vertex[0] + base, t.vertex[1] + base, t.vertex[2] + base});
@@ -147,6 +148,14 @@ PartSet named(VolumePart part, std::uint32_t index = k_none) {
   return set;
 }
 
+PartSet set_of(TreePart part, const Input& input, VolumePart which, std::uint32_t index) {
+  PartSet set = named(which, index);
+  for (const std::uint32_t p : part.points) set.points.push_back(input.points[p]);
+  set.source = std::move(part.points);
+  set.triangles = std::move(part.triangles);
+  return set;
+}
+
 using Sets = std::vector<PartSet>;
 
 Result<void> add_whole(const Input& input, Sets& sets) {
@@ -159,26 +168,23 @@ Result<void> add_whole(const Input& input, Sets& sets) {
 
 // Of a tree they are stored apart; of a mesh they are told apart as treeprep does.
 Result<void> add_trunk_or_leaves(const Input& input, bool leaves, Sets& sets) {
-  Gatherer gather(input);
-  PartSet set = named(leaves ? VolumePart::leaves : VolumePart::trunk);
+  const VolumePart which = leaves ? VolumePart::leaves : VolumePart::trunk;
   if (input.file) {
-    const auto begin = leaves ? input.trunk_points : 0,
-               end = leaves ? static_cast<std::uint32_t>(input.points.size()) : input.trunk_points;
-    for (std::uint32_t p = begin; p < end; ++p) gather.add(p, set);
-    for (std::size_t t = 0; t < input.mesh.triangles.size(); ++t) {
-      if ((input.mesh.part_of[t] == 1) == leaves) gather.add(input.mesh.triangles[t], set);
-    }
-  } else {
-    if (input.mesh.triangles.empty())
-      return refuse(input.name, "points have no trunk and no leaves",
-                    "name a mesh or a tree, or leave --per out");
-    Mesh mesh = input.mesh;
-    mesh.positions = input.points;
-    const auto classes = classify(mesh);
-    if (!classes) return std::unexpected(classes.error());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if ((classes->leaf_of[t] != k_none) == leaves) gather.add(mesh.triangles[t], set);
-    }
+    PartSet set = set_of(TreeParts(input.tree).part(which), input, which, k_none);
+    if (!set.points.empty()) sets.push_back(std::move(set));
+    return {};
+  }
+  Gatherer gather(input);
+  PartSet set = named(which);
+  if (input.mesh.triangles.empty())
+    return refuse(input.name, "points have no trunk and no leaves",
+                  "name a mesh or a tree, or leave --per out");
+  Mesh mesh = input.mesh;
+  mesh.positions = input.points;
+  const auto classes = classify(mesh);
+  if (!classes) return std::unexpected(classes.error());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if ((classes->leaf_of[t] != k_none) == leaves) gather.add(mesh.triangles[t], set);
   }
   gather.finish(std::move(set), sets);
   return {};
@@ -190,42 +196,28 @@ Result<void> needs_tree(const Input& input, const char* what) {
                 "make a tree of it first (treeprep), or use --per parts");
 }
 
-Result<void> add_groups(const Input& input, Sets& sets) {
-  if (auto ok = needs_tree(input, "leaf groups"); !ok) return ok;
-  const Leaves& l = input.tree.leaves;
-  if (!l.groups.empty() && (l.order.empty() || l.triangles.empty())) {
-    return refuse(input.name, "the leaves of its groups (LORD, LTRI) were left out",
-                  "prepare the tree with them");
-  }
-  Gatherer gather(input);
-  for (std::uint32_t g = 0; g < l.groups.size(); ++g) {
-    PartSet set = named(VolumePart::group, g);
-    for (std::uint32_t i = 0; i < l.groups[g].count; ++i) {
-      const std::uint32_t leaf = l.order[l.groups[g].first + i];
-      for (std::size_t t = input.tree.first_triangle_of_leaf(leaf);
-           t < input.tree.first_triangle_of_leaf(leaf + 1); ++t) {
-        const auto& v = l.triangles[t].vertex;
-        gather.add(Triangle{v[0] + input.trunk_points, v[1] + input.trunk_points, v[2] + input.trunk_points},
-                   set);
-      }
-    }
-    gather.finish(std::move(set), sets);
+// Every group or segment that has points.
+Result<void> add_all(const Input& input, VolumePart which, Sets& sets) {
+  TreeParts parts(input.tree);
+  for (std::uint32_t i = 0; i < parts.count(which); ++i) {
+    PartSet set = set_of(parts.part(which, i), input, which, i);
+    if (!set.points.empty()) sets.push_back(std::move(set));
   }
   return {};
 }
 
+Result<void> add_groups(const Input& input, Sets& sets) {
+  if (auto ok = needs_tree(input, "leaf groups"); !ok) return ok;
+  if (!TreeParts(input.tree).groups_have_leaves()) {
+    return refuse(input.name, "the leaves of its groups (LORD, LTRI) were left out",
+                  "prepare the tree with them");
+  }
+  return add_all(input, VolumePart::group, sets);
+}
+
 Result<void> add_segments(const Input& input, Sets& sets) {
   if (auto ok = needs_tree(input, "segments"); !ok) return ok;
-  Gatherer gather(input);
-  for (std::uint32_t s = 0; s < input.tree.segment_count(); ++s) {
-    PartSet set = named(VolumePart::segment, s);
-    for (std::size_t t = input.tree.first_triangle_of_segment(s);
-         t < input.tree.first_triangle_of_segment(s + 1); ++t) {
-      gather.add(Triangle(input.tree.trunk.triangles[t].vertex), set);
-    }
-    gather.finish(std::move(set), sets);
-  }
-  return {};
+  return add_all(input, VolumePart::segment, sets);
 }
 
 Result<void> add_cells(const Input& input, Sets&) {

@@ -1,3 +1,4 @@
+#include "lib/analysis/volumes/check_certificates.h"
 #include "tools/treedump/views.h"
 
 #include <algorithm>
@@ -9,7 +10,14 @@ Result<std::vector<std::string>> verify_file(const std::filesystem::path& path) 
   if (!container && container.error().fault != Fault::refused) return std::unexpected(container.error());
   if (!container) return std::vector<std::string>{container.error().what};
   const auto file = TreeFile::open(path);
-  if (file) return file->verify();
+  if (file) {
+    auto failures = file->verify();
+    if (!failures.empty()) return failures;
+    const auto volumes = load_volumes(*file);
+    const auto tree = file->load();
+    if (!volumes || volumes->empty() || !tree) return failures;
+    return check_certificates(*tree, *volumes);
+  }
   // Header or table do not fit together; the checksums can be checked all the same.
   std::vector<std::string> failures{file.error().what};
   for (const SectionInfo& section : container->sections()) {

@@ -1,20 +1,24 @@
 #include "lib/analysis/volumes/fit_volumes.h"
 
 #include "lib/analysis/volumes/bounded_fit.h"
+#include "lib/analysis/volumes/bounding_spheres.h"
 #include "lib/analysis/volumes/capsule.h"
 #include "lib/analysis/volumes/certify.h"
+#include "lib/analysis/volumes/cylinders.h"
+#include "lib/analysis/volumes/ellipsoids.h"
 #include "lib/analysis/volumes/enclose.h"
+#include "lib/analysis/volumes/kdop.h"
 #include "lib/analysis/volumes/lozenge.h"
 #include "lib/analysis/volumes/minimal_box.h"
 #include "lib/analysis/volumes/minimal_capsule.h"
 #include "lib/analysis/volumes/minimal_lozenge.h"
-#include "lib/analysis/volumes/minimal_sphere.h"
 #include "lib/analysis/volumes/oriented_boxes.h"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -34,14 +38,21 @@ struct VolumeFitter::Prepared {
   ConvexHull hull;
   std::vector<Double3> corners;  // of the hull, as the caller gave them
   double hull_seconds = 0;
+  mutable std::optional<Capsule<double>> capsule;  // the least one, once it is known
 };
 
 namespace {
 
-constexpr double k_exact_gap = 0.01;  // what FitQuality::exact proves
+// What FitQuality::exact proves.
+constexpr double k_box_gap = 0.01, k_capsule_gap = 0.02, k_lozenge_gap = 0.1, k_cylinder_gap = 0.01;
 
 using Prepared = VolumeFitter::Prepared;
 using Fit = BoundedFit<Volume<double>>;  // in cloud coordinates
+
+struct Entry {
+  FitMethod method;
+  Fit (*fit)(const Prepared&, const FitOptions&);
+};
 
 // A fit without a bound.
 template <class V>
@@ -58,32 +69,38 @@ Fit box_of(const Prepared& p, const FitOptions&) {
   return {p.cloud.box, e.x * e.y * e.z};
 }
 
-double ball_volume(double radius) {
-  return 4 * std::numbers::pi / 3 * radius * radius * radius;
+Fit ball_of(const Prepared& p, const FitOptions&) {
+  return bounded(smallest_sphere(p.cloud).fit);
 }
 
-Fit minimal_ball(const Prepared& p, const FitOptions&) {
-  const Sphere s = minimal_sphere(p.hull.boundary);
-  return {BoundingSphere<double>{s.centre, s.radius}, ball_volume(s.radius * (1 - 1e-12))};
+// How far a proof is driven: not at all, to the gap of the kind, or as far as the time allows.
+template <class Options>
+Options limits(const FitOptions& how, double gap) {
+  Options options;
+  const bool prove = how.quality == FitQuality::exact || how.seconds > 0;
+  options.gap = prove ? gap : std::numeric_limits<double>::infinity();
+  if (how.seconds > 0) options.seconds = how.seconds;
+  return options;
 }
 
-struct Entry {
-  FitMethod method;
-  Fit (*fit)(const Prepared&, const FitOptions&);
-};
-
-Fit least_box(const Prepared& p, const FitOptions& o) {
-  MinimalBoxOptions options;
-  if (o.quality == FitQuality::exact) options.gap = k_exact_gap;
-  if (o.seconds > 0) options.seconds = o.seconds;
-  return bounded(minimal_box(p.hull, options));
+Fit least_box(const Prepared& p, const FitOptions& how) {
+  return bounded(minimal_box(p.hull, limits<MinimalBoxOptions>(how, k_box_gap)));
 }
-
-Fit least_capsule(const Prepared& p, const FitOptions&) {
-  return bounded(minimal_capsule(p.hull.vertices));
+BoundedFit<Capsule<double>> capsule_of(const Prepared& p, const FitOptions& how) {
+  return minimal_capsule(p.hull, limits<SweptBoundOptions>(how, k_capsule_gap));
 }
-Fit least_lozenge(const Prepared& p, const FitOptions&) {
-  return bounded(minimal_lozenge(p.hull.vertices));
+// The lozenge starts from the capsule, which no lozenge need be worse than.
+Fit least_lozenge(const Prepared& p, const FitOptions& how) {
+  const Capsule<double> capsule = p.capsule ? *p.capsule : capsule_of(p, {}).volume;
+  return bounded(minimal_lozenge(p.hull, capsule, limits<SweptBoundOptions>(how, k_lozenge_gap)));
+}
+Fit least_capsule(const Prepared& p, const FitOptions& how) {
+  BoundedFit<Capsule<double>> fit = capsule_of(p, how);
+  p.capsule = fit.volume;
+  return bounded(std::move(fit));
+}
+Fit least_cylinder(const Prepared& p, const FitOptions& how) {
+  return bounded(minimal_cylinder(p.hull, limits<MinimalCylinderOptions>(how, k_cylinder_gap)));
 }
 
 // The surface's own triangles where there are some, else the vertices alone.
@@ -96,21 +113,57 @@ const std::vector<Entry>& entries() {
   using O = const FitOptions&;
   using K = VolumeKind;
   static const std::vector<Entry> k_entries{
-      {{K::aabb, "exact", true}, box_of},
-      {{K::sphere, "minimal", true}, minimal_ball},
-      {{K::obb, "gaussian", false}, [](P p, O) { return plain(gaussian_box(p.cloud)); }},
-      {{K::obb, "surface", false}, surface_box_of},
-      {{K::obb, "hull", false}, [](P p, O) { return plain(hull_surface_box(p.hull)); }},
-      {{K::obb, "minimal", true}, least_box},
-      {{K::capsule, "least-squares", false},
+      {{K::aabb, "exact", true, true}, box_of},
+      {{K::sphere, "box", true, false}, [](P p, O) { return plain(box_sphere(p.cloud)); }},
+      {{K::sphere, "mean", true, false}, [](P p, O) { return plain(mean_sphere(p.cloud)); }},
+      {{K::sphere, "ritter", true, false}, [](P p, O) { return plain(extremal_sphere(p.cloud)); }},
+      {{K::sphere, "minimal", true, true}, ball_of},
+      {{K::obb, "gaussian", true, false}, [](P p, O) { return plain(gaussian_box(p.cloud)); }},
+      {{K::obb, "surface", true, false}, surface_box_of},
+      {{K::obb, "hull", true, false}, [](P p, O) { return plain(hull_surface_box(p.hull)); }},
+      {{K::obb, "minimal", false, true}, least_box},
+      {{K::capsule, "least-squares", true, false},
        [](P p, O) { return plain(least_squares_capsule(p.cloud.points)); }},
-      {{K::capsule, "projected-circle", false},
+      {{K::capsule, "projected-circle", false, false},
        [](P p, O) { return plain(projected_circle_capsule(p.hull.vertices)); }},
-      {{K::capsule, "minimal", true}, least_capsule},
-      {{K::lozenge, "gaussian", false}, [](P p, O) { return plain(gaussian_lozenge(p.cloud.points)); }},
-      {{K::lozenge, "minimal", true}, least_lozenge},
+      {{K::capsule, "minimal", false, true}, least_capsule},
+      {{K::cylinder, "line-fit", true, false}, [](P p, O) { return plain(line_fit_cylinder(p.cloud)); }},
+      {{K::cylinder, "recentred", true, false},
+       [](P p, O) { return plain(recentred_cylinder(p.cloud, p.hull)); }},
+      {{K::cylinder, "minimal", false, true}, least_cylinder},
+      {{K::lozenge, "gaussian", true, false}, [](P p, O) { return plain(gaussian_lozenge(p.cloud.points)); }},
+      {{K::lozenge, "minimal", false, true}, least_lozenge},
+      {{K::ellipsoid, "axis-aligned", true, false},
+       [](P p, O) { return plain(axis_aligned_ellipsoid(p.cloud)); }},
+      {{K::ellipsoid, "gaussian", true, false}, [](P p, O) { return plain(gaussian_ellipsoid(p.cloud)); }},
+      {{K::ellipsoid, "minimal", false, true}, [](P p, O) { return bounded(minimal_ellipsoid(p.hull)); }},
+      {{K::kdop, "14", true, false}, nullptr},
+      {{K::kdop, "18", true, false}, nullptr},
+      {{K::kdop, "26", true, true}, nullptr},
   };
   return k_entries;
+}
+
+std::optional<int> planes_of(std::string_view name) {
+  int k = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), k);
+  if (error != std::errc() || end != name.data() + name.size() || k < 6 || k > k_most_planes || k % 2 != 0)
+    return std::nullopt;
+  return k;
+}
+
+// Unique for its directions: nothing is searched. Its own volume is its bound.
+Fit slabs_of(const Prepared& p, int k) {
+  Kdop<double> volume = fit_kdop(p.hull.boundary, kdop_normals(k));
+  return {volume, measures_of(volume).volume * (1 - 1e-9)};
+}
+
+Fit fit_by(const FitMethod& method, const Prepared& p, const FitOptions& how) {
+  if (method.kind == VolumeKind::kdop) return slabs_of(p, planes_of(method.name).value_or(26));
+  const auto entry = std::find_if(entries().begin(), entries().end(), [&](const Entry& e) {
+    return e.method.kind == method.kind && e.method.name == method.name;
+  });
+  return entry->fit(p, how);
 }
 
 }  // namespace
@@ -122,6 +175,11 @@ std::span<const FitMethod> fit_methods() {
     return out;
   }();
   return k_methods;
+}
+
+std::optional<FitMethod> kdop_method(std::string_view k) {
+  if (!planes_of(k)) return std::nullopt;
+  return FitMethod{VolumeKind::kdop, std::string(k), true, false};
 }
 
 Result<VolumeFitter> VolumeFitter::make(std::span<const Double3> points,
@@ -147,18 +205,14 @@ double VolumeFitter::hull_seconds() const {
 
 std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const FitOptions& options) const {
   const Prepared& p = *prepared_;
-  const auto entry = std::find_if(entries().begin(), entries().end(), [&](const Entry& e) {
-    return e.method.kind == method.kind && e.method.name == method.name;
-  });
-  if (entry == entries().end()) return std::nullopt;
   const double start = now();
-  const Fit fit = entry->fit(p, options);
+  const Fit fit = fit_by(method, p, options);
   const double fitted = now();
   auto enclosed = enclose(placed(fit.volume, p.hull.frame), p.points,
                           p.hull.loss == 0 ? std::span<const Double3>(p.corners) : p.points);
   if (!enclosed) return std::nullopt;
   FittedVolume out;
-  out.method = entry->method;
+  out.method = method;
   out.volume = std::move(enclosed->volume);
   out.certified = enclosed->certified;
   out.measures = measures_of(to_double(out.volume));

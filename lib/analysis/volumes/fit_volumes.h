@@ -28,16 +28,24 @@ enum class FitQuality {
 
 struct FitMethod {
   VolumeKind kind = VolumeKind::aabb;
-  std::string_view name;  // of this kind: "minimal"
-  bool searches = false;  // for the least volume; the others take constant time a point
+  std::string name;    // of this kind: "minimal"; of a k-DOP its k
+  bool quick = false;  // closed form or principal axes: constant time a point
+  bool least = false;  // the one of its kind that gives the least volume
+  friend bool operator==(const FitMethod&, const FitMethod&) = default;
 };
 
 // All of them, by kind, the cheapest first.
 std::span<const FitMethod> fit_methods();
 
+// The method of a k-DOP with any even k from 6 to k_most_planes.
+inline constexpr int k_most_planes = 512;
+std::optional<FitMethod> kdop_method(std::string_view k);
+
 struct FitOptions {
   FitQuality quality = FitQuality::balanced;
-  double seconds = 0;  // for one search; 0: its own limits, which do not depend on the machine
+  // For one search, which then goes on to a proof as far as the time allows; 0: the limits of the searches
+  // themselves, which do not depend on the machine.
+  double seconds = 0;
 };
 
 struct FittedVolume {

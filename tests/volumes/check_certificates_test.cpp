@@ -1,0 +1,85 @@
+#include "lib/analysis/volumes/check_certificates.h"
+
+#include "lib/analysis/tree/tree_parts.h"
+#include "lib/analysis/volumes/minimal_sphere.h"
+#include "tests/formats/tree_maker.h"
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+struct Stored {
+  std::vector<VolumeSet> sets;
+  std::vector<VolumeRecord> records;
+  std::vector<float> numbers;
+  std::vector<VolumeNode> nodes;
+
+  void ball(VolumePart part, std::uint32_t index, const std::vector<Double3>& points) {
+    const StoredSphere s = stored_minimal_sphere(points);
+    sets.push_back(
+        {.part = part, .index = index, .first = static_cast<std::uint32_t>(records.size()), .count = 1});
+    VolumeRecord r{.kind = VolumeKind::sphere,
+                   .flags = VolumeRecord::certified,
+                   .first = static_cast<std::uint32_t>(numbers.size()),
+                   .count = 4};
+    r.method = {'m'};
+    records.push_back(r);
+    numbers.insert(numbers.end(), {s.centre.x, s.centre.y, s.centre.z, s.radius});
+  }
+  TreeVolumes volumes() const { return {sets, records, numbers, nodes}; }
+};
+
+std::vector<Double3> points_of(TreeParts& parts, VolumePart part, std::uint32_t index) {
+  std::vector<Double3> out;
+  for (const std::uint32_t p : parts.part(part, index).points) out.push_back(parts.points()[p]);
+  return out;
+}
+
+// A ball round the whole, each group, and a node above all groups.
+Stored stored_for(const Tree& tree) {
+  TreeParts parts(tree);
+  Stored s;
+  s.ball(VolumePart::whole, k_none, parts.points());
+  std::vector<Double3> all;
+  const std::uint32_t groups = parts.count(VolumePart::group);
+  for (std::uint32_t g = 0; g < groups; ++g) {
+    const auto points = points_of(parts, VolumePart::group, g);
+    s.ball(VolumePart::group, g, points);
+    all.insert(all.end(), points.begin(), points.end());
+  }
+  s.ball(VolumePart::node, 0, all);
+  s.nodes.push_back({groups + 1, k_none, groups + 1});
+  for (std::uint32_t g = 0; g < groups; ++g) s.nodes.push_back({g + 2, g, g + 1});
+  return s;
+}
+
+TEST(CheckCertificates, VolumesThatHoldTheirVerticesPass) {
+  const Tree tree = make_tree({.leaves = 20, .groups = 5}, 1);
+  const auto failures = check_certificates(tree, stored_for(tree).volumes());
+  EXPECT_TRUE(failures.empty()) << failures.front();
+}
+
+TEST(CheckCertificates, ARadiusThatIsALittleTooSmallIsFoundInEverySet) {
+  const Tree tree = make_tree({.leaves = 20, .groups = 5}, 1);
+  for (std::size_t i = 0; i < 7; ++i) {
+    Stored s = stored_for(tree);
+    s.numbers[4 * i + 3] = s.numbers[4 * i + 3] * 0.9999f;
+    const auto failures = check_certificates(tree, s.volumes());
+    ASSERT_EQ(failures.size(), 1u) << i;
+    EXPECT_EQ(failures[0].find("VOLU[" + std::to_string(i) + "]: sphere (m) of "), 0u) << failures[0];
+    s.records[i].flags = 0;  // what is not called certified is not judged
+    EXPECT_TRUE(check_certificates(tree, s.volumes()).empty());
+  }
+}
+
+TEST(CheckCertificates, EnvelopesAreNotJudged) {
+  const Tree tree = make_tree({}, 1);
+  Stored s = stored_for(tree);
+  s.numbers[3] = 0;
+  s.sets[0].motion = VolumeMotion::envelope;
+  EXPECT_TRUE(check_certificates(tree, s.volumes()).empty());
+}
+
+}  // namespace
+}  // namespace copse
