@@ -71,7 +71,7 @@ TEST(Capsule, TheProjectedCircleIsNotLargerThanThatOfTheLineOfLeastSquares) {
 TEST(Capsule, OfPointsOnALineIsASegment) {
   const NamedPoints line = flat_sets()[3];
   const Capsule<double> c = least_squares_capsule(line.points);
-  EXPECT_LT(c.radius, 1e-16);
+  EXPECT_LT(c.radius, 0x1p-46);
   EXPECT_NEAR(distance(c.a, c.b), distance(line.points.front(), line.points.back()), 1e-15);
 }
 

@@ -8,9 +8,7 @@
 namespace copse {
 namespace {
 
-constexpr Frame3 k_world{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
-double product(const Frame3& r, const std::array<Double3, 3>& m) {
+double product(const Axes& r, const std::array<Double3, 3>& m) {
   return dot(r[0], m[0]) + dot(r[1], m[1]) + dot(r[2], m[2]);
 }
 
@@ -30,7 +28,7 @@ TEST(ForcePlane, HoldsForEveryVolumeAroundThePointsInEveryFrame) {
   for (const NamedPoints& s : mixed_sets()) {
     for (int k = 0; k < 200; ++k) {
       const ForcePlane plane = random_plane(random, s.points);
-      SweptFit fit{turned(k_world, in_box(random, {1, 1, 1})), {}};
+      SweptFit fit{turned(k_world_axes, in_box(random, {1, 1, 1})), {}};
       SweptRectangle& q = fit.rectangle;
       q = {random.around(-1, 1), 0, random.around(-1, 1), 0, random.around(0, 0.5), 0};
       q.a1 = q.a0 + random.uniform(0, 2), q.b1 = q.b0 + random.uniform(0, 2);
@@ -51,7 +49,7 @@ TEST(ForcePlane, TwoForcesAcrossGiveTheThickness) {
   EXPECT_EQ(plane.alpha, 0);
   EXPECT_EQ(plane.beta, 0);
   EXPECT_EQ(plane.gamma, 1);
-  const RotationCell here{k_world, {}, {}};
+  const RotationCell here{k_world_axes, {}, {}};
   EXPECT_NEAR(range_over(plane, here).least, 2, 1e-12);  // r >= half of 4
 }
 
@@ -59,7 +57,7 @@ TEST(ForcePlane, NothingPressesNothingIsClaimed) {
   const ForcePlane plane =
       force_plane(unit_cube(), std::vector<std::uint32_t>{0}, std::vector<Double3>{{0, 0, 0}});
   EXPECT_EQ(plane.gamma, 0);
-  EXPECT_LE(range_over(plane, {k_world, {-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}}).least, 0);
+  EXPECT_LE(range_over(plane, {k_world_axes, {-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}}).least, 0);
 }
 
 TEST(ForcePlane, TheRangeIsBelowEverySampleOfTheCellAndNearTheLeast) {
@@ -69,7 +67,7 @@ TEST(ForcePlane, TheRangeIsBelowEverySampleOfTheCellAndNearTheLeast) {
     const ForcePlane plane = random_plane(random, icosahedron());
     const double half = std::pow(10.0, random.uniform(-4, -0.5));
     const Double3 centre = in_box(random, {0.4, 0.4, 0.4}), size{half, half * random.uniform(), half};
-    const RotationCell cell{turned(k_world, in_box(random, {1, 1, 1})), centre - size, centre + size};
+    const RotationCell cell{turned(k_world_axes, in_box(random, {1, 1, 1})), centre - size, centre + size};
     const double least = range_over(plane, cell).least;
     double sampled = 1e300;
     for (int i = 0; i < 400; ++i) {

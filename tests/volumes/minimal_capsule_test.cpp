@@ -4,6 +4,7 @@
 #include "lib/analysis/volumes/minimal_sphere.h"
 #include "tests/volumes/hull_of.h"
 #include "tests/volumes/point_sets.h"
+#include "tests/volumes/reference_models.h"
 
 #include <gtest/gtest.h>
 
@@ -75,6 +76,24 @@ TEST(MinimalCapsule, FollowsTheScale) {
   Points half = p;
   for (Double3& q : half) q *= 0.5;
   EXPECT_NEAR(interior_volume(minimal_capsule(hull_of(half)).volume) * 8, v, 1e-9 * v);
+}
+
+TEST(MinimalCapsule, OfReferenceModelsIsTheBestKnownAndProvenTo2Percent) {
+  if (reference_folder().empty()) GTEST_SKIP() << "the meshes are in Debian's libcgal-demo, not installed";
+  for (const ReferenceModel& model : k_reference_models) {
+    const std::vector<Double3> points = reference_points(model.name);
+    if (points.size() > 3000) continue;  // the quick ones
+    const auto cloud = make_point_cloud(points);
+    ASSERT_TRUE(cloud) << model.name;
+    const ConvexHull hull = convex_hull(*cloud);
+    SweptBoundOptions proof;
+    proof.gap = 0.02;
+    const BoundedFit<Capsule<double>> fit = minimal_capsule(hull, proof);
+    const double volume = interior_volume(fit.volume), best = hull.frame.volume_out(1);
+    EXPECT_LE(volume * best, model.capsule * 1.001) << model.name;
+    EXPECT_LE(fit.lower_bound * best, model.capsule * (1 + 1e-6)) << model.name;
+    EXPECT_GE(fit.lower_bound * 1.02001, volume) << model.name;
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "lib/analysis/volumes/minimal_capsule.h"
 #include "tests/volumes/hull_of.h"
 #include "tests/volumes/point_sets.h"
+#include "tests/volumes/reference_models.h"
 
 #include <gtest/gtest.h>
 
@@ -56,6 +57,24 @@ TEST(MinimalLozenge, OfThinBladesIsThin) {
     const Lozenge<double> l = minimal_lozenge(hull_of(p)).volume;
     for (const Double3& q : p) EXPECT_LE(distance_from_rectangle(l, q), l.radius);
     EXPECT_LT(l.radius, thin * (1 + 1e-3) + 1e-15);
+  }
+}
+
+TEST(MinimalLozenge, OfReferenceModelsIsTheBestKnownAndProvenTo2Percent) {
+  if (reference_folder().empty()) GTEST_SKIP() << "the meshes are in Debian's libcgal-demo, not installed";
+  for (const ReferenceModel& model : k_reference_models) {
+    const std::vector<Double3> points = reference_points(model.name);
+    if (points.size() > 3000) continue;  // the quick ones
+    const auto cloud = make_point_cloud(points);
+    ASSERT_TRUE(cloud) << model.name;
+    const ConvexHull hull = convex_hull(*cloud);
+    SweptBoundOptions proof;
+    proof.gap = 0.02;
+    const BoundedFit<Lozenge<double>> fit = minimal_lozenge(hull, proof);
+    const double volume = interior_volume(fit.volume), best = hull.frame.volume_out(1);
+    EXPECT_LE(volume * best, model.lozenge * 1.0015) << model.name;
+    EXPECT_LE(fit.lower_bound * best, model.lozenge * (1 + 1e-6)) << model.name;
+    EXPECT_GE(fit.lower_bound * 1.02001, volume) << model.name;
   }
 }
 

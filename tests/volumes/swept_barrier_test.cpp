@@ -8,8 +8,6 @@
 namespace copse {
 namespace {
 
-constexpr Frame3 k_world{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
 TEST(SweptBarrier, DescentFindsTheSmallestCircleOfAProjection) {
   // An equilateral prism along x: its axis is already that of the thinnest cylinder.
   Points p;
@@ -18,7 +16,7 @@ TEST(SweptBarrier, DescentFindsTheSmallestCircleOfAProjection) {
       p.push_back({x, std::cos(2 * std::numbers::pi * k / 3), std::sin(2 * std::numbers::pi * k / 3)});
     }
   }
-  SweptFit fit{turned(k_world, {0, 0.02, 0.01}), {}};
+  SweptFit fit{turned(k_world_axes, {0, 0.02, 0.01}), {}};
   fit.rectangle = roomy_rectangle(Swept::line, p, fit.frame);
   descend(Swept::line, p, fit, {1, 1e-10});
   EXPECT_NEAR(fit.rectangle.r, 1, 1e-8);
@@ -28,7 +26,7 @@ TEST(SweptBarrier, DescentFindsTheSmallestCircleOfAProjection) {
 TEST(SweptBarrier, DescentNeverLosesAPointAndNeverGrows) {
   for (const NamedPoints& s : mixed_sets()) {
     for (const Swept kind : {Swept::line, Swept::capsule, Swept::lozenge}) {
-      SweptFit fit{turned(k_world, {0.1, 0.2, -0.3}), {}};
+      SweptFit fit{turned(k_world_axes, {0.1, 0.2, -0.3}), {}};
       fit.rectangle = roomy_rectangle(kind, s.points, fit.frame);
       const double before = fit.rectangle.r, volume = fit.volume();
       descend(kind, s.points, fit, {1, 1e-6});
@@ -46,7 +44,7 @@ TEST(SweptBarrier, TheDescentsEndIsStationary) {
   // No small turn or move of the rectangle, with the radius that it then needs, has less volume.
   Random random(3);
   for (const NamedPoints& s : mixed_sets()) {
-    const SweptFit best = descend_around(Swept::lozenge, s.points, k_world);
+    const SweptFit best = descend_around(Swept::lozenge, s.points, k_world_axes);
     for (int k = 0; k < 200; ++k) {
       SweptFit near = best;
       const double step = 1e-4 * best.rectangle.r;
@@ -62,7 +60,7 @@ TEST(SweptBarrier, TheDescentsEndIsStationary) {
 
 TEST(SweptBarrier, SeparationIsZeroWhereTheLengthsHoldThePoints) {
   const Points p = unit_cube();
-  Separation problem{{3, 3, 2}, {1, 1, 1}, k_world, {0.01, 0.01, 0.01}};
+  Separation problem{{3, 3, 2}, {1, 1, 1}, k_world_axes, {0.01, 0.01, 0.01}};
   SeparationState state;
   state.s = 5;
   separate(Swept::lozenge, p, problem, {1, 1e-9}, state);
@@ -72,7 +70,7 @@ TEST(SweptBarrier, SeparationIsZeroWhereTheLengthsHoldThePoints) {
 TEST(SweptBarrier, SeparationMeasuresWhatIsMissing) {
   // A ball about the unit cube needs a radius of sqrt(3) / 2; lengths (0, 0, 0.5) grown by r alone.
   const Points p = unit_cube();
-  Separation problem{{0, 0, 0.5}, {0, 0, 1}, k_world, {0.01, 0.01, 0.01}};
+  Separation problem{{0, 0, 0.5}, {0, 0, 1}, k_world_axes, {0.01, 0.01, 0.01}};
   for (const Swept kind : {Swept::capsule, Swept::lozenge}) {
     SeparationState state;
     state.s = 5;

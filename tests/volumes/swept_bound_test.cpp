@@ -8,8 +8,6 @@
 namespace copse {
 namespace {
 
-constexpr Frame3 k_world{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
 TEST(SweptBound, IsBelowEveryVolumeThatAnyoneFinds) {
   Random random(1);
   for (const NamedPoints& s : mixed_sets()) {
@@ -18,7 +16,7 @@ TEST(SweptBound, IsBelowEveryVolumeThatAnyoneFinds) {
       const SweptBound bound = bound_swept(kind, s.points, {0.02, 300}, best);
       EXPECT_LE(bound.lower_bound, best.volume()) << s.name;
       for (int k = 0; k < 4; ++k) {
-        const Frame3 start = turned(k_world, in_box(random, {1, 1, 1}));
+        const Axes start = turned(k_world_axes, in_box(random, {1, 1, 1}));
         EXPECT_LE(bound.lower_bound, descend_around(kind, s.points, start).volume()) << s.name;
       }
     }
@@ -55,7 +53,7 @@ TEST(SweptBound, ProvesKnownOptima) {
 TEST(SweptBound, FindsTheOptimumFromAPoorStart) {
   for (const Swept kind : {Swept::capsule, Swept::lozenge}) {
     const Points p = corner_tetrahedron();
-    SweptFit poor{k_world, roomy_rectangle(kind, p, k_world)};
+    SweptFit poor{k_world_axes, roomy_rectangle(kind, p, k_world_axes)};
     poor.rectangle.r *= 1.5;
     const double start = poor.volume();
     bound_swept(kind, p, {0.01, 30000}, poor);

@@ -1,6 +1,6 @@
 #include "lib/analysis/volumes/capsule.h"
 
-#include "lib/analysis/volumes/principal_frame.h"
+#include "lib/analysis/volumes/principal_axes.h"
 #include "lib/analysis/volumes/swept_search.h"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ Capsule<double> capsule_on_line(std::span<const Double3> points, const Double3& 
 
 Capsule<double> least_squares_capsule(std::span<const Double3> points) {
   if (points.empty()) return {};
-  const PrincipalFrame frame = principal_frame(points);
+  const PrincipalAxes frame = principal_axes(points);
   return capsule_on_line(points, frame.mean, frame.axes[0]);
 }
 

@@ -33,7 +33,7 @@ ForcePlane force_plane(std::span<const Double3> points, std::span<const std::uin
 
 // Rotations R(g) frame with low <= g <= high.
 struct RotationCell {
-  Frame3 frame;
+  Axes frame;
   Double3 low, high;
   Double3 centre() const { return (low + high) * 0.5; }
 };

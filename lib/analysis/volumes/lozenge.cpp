@@ -1,6 +1,6 @@
 #include "lib/analysis/volumes/lozenge.h"
 
-#include "lib/analysis/volumes/principal_frame.h"
+#include "lib/analysis/volumes/principal_axes.h"
 
 #include <algorithm>
 #include <limits>
@@ -49,11 +49,11 @@ Lozenge<double> enclosing(Lozenge<double> l, std::span<const Double3> points) {
   return l;
 }
 
-Lozenge<double> placed(const SweptRectangle& s, const Frame3& frame) {
+Lozenge<double> placed(const SweptRectangle& s, const Axes& frame) {
   return {out_of(frame, {s.a0, s.b0, s.h}), frame[0] * (s.a1 - s.a0), frame[1] * (s.b1 - s.b0), s.r};
 }
 
-Lozenge<double> lozenge_in_frame(std::span<const Double3> points, const Frame3& frame) {
+Lozenge<double> lozenge_in_frame(std::span<const Double3> points, const Axes& frame) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Double3& p : points) {
     const double w = dot(frame[2], p);
@@ -75,7 +75,7 @@ Lozenge<double> lozenge_in_frame(std::span<const Double3> points, const Frame3& 
 
 Lozenge<double> gaussian_lozenge(std::span<const Double3> points) {
   if (points.empty()) return {};
-  return lozenge_in_frame(points, principal_frame(points).axes);
+  return lozenge_in_frame(points, principal_axes(points).axes);
 }
 
 }  // namespace copse

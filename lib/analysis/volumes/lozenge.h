@@ -20,11 +20,11 @@ Lozenge<double> enclosing(Lozenge<double> l, std::span<const Double3> points);
 
 // In a given frame: the radius is half the extent across, the sides are those of the two capsules seen from
 // the sides, and corners move out to the points that they leave out. O(n).
-Lozenge<double> lozenge_in_frame(std::span<const Double3> points, const Frame3& frame);
+Lozenge<double> lozenge_in_frame(std::span<const Double3> points, const Axes& frame);
 
 // In the principal frame. O(n): some 40 ns a point.
 Lozenge<double> gaussian_lozenge(std::span<const Double3> points);
 
-Lozenge<double> placed(const SweptRectangle& s, const Frame3& frame);
+Lozenge<double> placed(const SweptRectangle& s, const Axes& frame);
 
 }  // namespace copse

@@ -2,26 +2,21 @@
 
 #include "lib/analysis/volumes/lozenge.h"
 #include "lib/analysis/volumes/minimal_capsule.h"
+#include "lib/analysis/volumes/minimal_rectangle.h"
 #include "lib/analysis/volumes/swept_search.h"
 
 namespace copse {
 namespace {
 
-// The rectangle of least area around a planar cloud: one of its sides lies along an edge of the hull.
 Lozenge<double> rectangle_around(const ConvexHull& hull) {
-  Lozenge<double> best;
-  double least = std::numeric_limits<double>::infinity();
-  for (const HullEdge& edge : hull.edges) {
-    const Double3 u = normalized(hull.vertices[edge.b] - hull.vertices[edge.a]), v = cross(hull.axes[2], u);
-    const Frame3 frame{u, v, hull.axes[2]};
-    DoubleBox box;
-    for (const Double3& p : hull.vertices) box.grow(into(frame, p));
-    const Double3 size = box.extent();
-    if (size.x * size.y >= least) continue;
-    least = size.x * size.y;
-    best = placed({box.min.x, box.max.x, box.min.y, box.max.y, box.centre().z, 0}, frame);
-  }
-  return best;
+  std::vector<Double2> plane;
+  for (const Double3& p : hull.vertices) plane.push_back({dot(p, hull.axes[0]), dot(p, hull.axes[1])});
+  const Double2 along = minimal_rectangle(hull_of_plane(plane)).along;
+  const Double3 u = normalized(hull.axes[0] * along.x + hull.axes[1] * along.y);
+  const Axes axes{u, cross(hull.axes[2], u), hull.axes[2]};
+  DoubleBox box;
+  for (const Double3& p : hull.vertices) box.grow(into(axes, p));
+  return placed({box.min.x, box.max.x, box.min.y, box.max.y, box.centre().z, 0}, axes);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "lib/analysis/volumes/principal_axes.h"
 
-#include "lib/analysis/volumes/principal_frame.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -46,6 +44,23 @@ std::vector<Double3> each_once(std::span<const Double3> points) {
   return once;
 }
 
+void rotate(std::array<std::array<double, 3>, 3>& a, Axes& v, int p, int q) {
+  if (a[p][q] == 0) return;
+  const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+  const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
+  const double c = 1 / std::hypot(t, 1.0), s = t * c;
+  const double change = t * a[p][q];
+  a[p][p] -= change, a[q][q] += change;
+  a[p][q] = a[q][p] = 0;
+  const int r = 3 - p - q;
+  const double rp = a[r][p], rq = a[r][q];
+  a[r][p] = a[p][r] = c * rp - s * rq;
+  a[r][q] = a[q][r] = s * rp + c * rq;
+  const Double3 vp = v[p], vq = v[q];
+  v[p] = vp * c - vq * s;
+  v[q] = vp * s + vq * c;
+}
+
 PrincipalAxes from_covariance(const Double3& mean, const std::array<double, 6>& covariance) {
   const Eigen3 e = eigen_of(covariance);
   PrincipalAxes found{mean, e.axes, {}};
@@ -61,10 +76,17 @@ void add_outer(std::array<double, 6>& m, const Double3& d, double weight) {
 }  // namespace
 
 Eigen3 eigen_of(const std::array<double, 6>& m) {
+  std::array<std::array<double, 3>, 3> a{{{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}};
+  Axes v = k_world_axes;
+  for (int sweep = 0; sweep < 12; ++sweep) {  // converges quadratically: 6 or 7 do
+    if (a[0][1] == 0 && a[0][2] == 0 && a[1][2] == 0) break;
+    rotate(a, v, 0, 1), rotate(a, v, 0, 2), rotate(a, v, 1, 2);
+  }
+  std::array<int, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return a[i][i] > a[j][j]; });
   Eigen3 found;
-  Double3 values;
-  principal_axes({{{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}}, found.axes, values);
-  found.values = {values.x, values.y, values.z};
+  for (int i = 0; i < 3; ++i) found.values[i] = a[order[i]][order[i]];
+  found.axes = axes_along(v[order[0]], v[order[1]]);
   return found;
 }
 

@@ -1,6 +1,7 @@
 // principal_axes: mean and axes of largest and smallest spread, of points and of surfaces.
 //
-// Source: digest 002, sections 4.0 and 4.3.d (the covariance of triangles, as corrected there).
+// Source: digest 002, sections 4.0 and 4.3.d (the covariance of triangles, as corrected there). Eigenvectors
+// by cyclic Jacobi rotations: orthonormal whatever the eigenvalues.
 #pragma once
 
 #include "lib/analysis/volumes/frame.h"

@@ -325,7 +325,7 @@ class Descent final : public Barrier {
     if (dot(w, w) > k_largest_turn * k_largest_turn) return k_infinity;
     std::span<const Double3> q = q_;
     if (w != Double3{}) {
-      const Frame3 frame = turned(fit_.frame, w * 0.5);
+      const Axes frame = turned(fit_.frame, w * 0.5);
       for (std::size_t i = 0; i < points_.size(); ++i) trial_[i] = into(frame, points_[i]);
       q = trial_;
     }

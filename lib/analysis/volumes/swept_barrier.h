@@ -27,7 +27,7 @@ struct BarrierGaps {
 };
 
 struct SweptFit {
-  Frame3 frame;
+  Axes frame;
   SweptRectangle rectangle;
   double volume() const { return swept_volume(rectangle.lengths()); }
 };

@@ -54,11 +54,10 @@ class BranchAndBound {
   bool outside(const RotationCell& cell) const;
   LengthPolytope polytope_of(const Cell& cell) const;
   void cut(LengthPolytope& polytope, std::uint32_t plane, const RotationCell& cell) const;
-  void separate_from(const Cell& cell, const Frame3& frame, const SweptLengths& lengths,
+  void separate_from(const Cell& cell, const Axes& frame, const SweptLengths& lengths,
                      SeparationState& state);
-  bool add_missed(const Frame3& frame, const SeparationState& state,
-                  std::vector<std::uint32_t>& working) const;
-  void search(const Cell& cell, const Frame3& start);
+  bool add_missed(const Axes& frame, const SeparationState& state, std::vector<std::uint32_t>& working) const;
+  void search(const Cell& cell, const Axes& start);
   bool spent() const;
   double target() const { return volume_ / (1 + options_.gap); }
 
@@ -81,7 +80,7 @@ void BranchAndBound::plant() {
   const bool capsule = kind_ == Swept::capsule;
   const double half = capsule ? 1 : k_cube_half, offset = half / 3;
   // The best frame comes to lie a third off the centre, never on the border of a cell.
-  const Frame3 base = orthonormal(turned(best_.frame, {capsule ? 0 : offset, offset, -offset}));
+  const Axes base = orthonormal(turned(best_.frame, {capsule ? 0 : offset, offset, -offset}));
   for (int k = 0; k < (capsule ? 1 : 3); ++k) {
     Cell cell;
     cell.rotations.frame = {base[k], base[(k + 1) % 3], base[(k + 2) % 3]};
@@ -128,7 +127,7 @@ void BranchAndBound::push(Cell cell) {
   open_.push(std::move(cell));
 }
 
-void BranchAndBound::separate_from(const Cell& cell, const Frame3& frame, const SweptLengths& lengths,
+void BranchAndBound::separate_from(const Cell& cell, const Axes& frame, const SweptLengths& lengths,
                                    SeparationState& state) {
   std::vector<Double3> local;
   DoubleBox box;
@@ -163,7 +162,7 @@ void BranchAndBound::separate_from(const Cell& cell, const Frame3& frame, const 
   separate(kind_, local, problem, {std::min(1.0, state.s), std::clamp(options_.gap / 20, 1e-7, 2e-3)}, state);
 }
 
-bool BranchAndBound::add_missed(const Frame3& frame, const SeparationState& state,
+bool BranchAndBound::add_missed(const Axes& frame, const SeparationState& state,
                                 std::vector<std::uint32_t>& working) const {
   const double limit = state.rectangle.r * (1 + k_sticks_out);
   std::array<std::pair<double, std::uint32_t>, 4> worst;  // a quadrant of the rectangle each
@@ -183,7 +182,7 @@ bool BranchAndBound::add_missed(const Frame3& frame, const SeparationState& stat
   return found;
 }
 
-void BranchAndBound::search(const Cell& cell, const Frame3& start) {
+void BranchAndBound::search(const Cell& cell, const Axes& start) {
   if (cell.depth > k_search_depth) return;
   if (descend_around(kind_, points_, start, {0.05, 2}).volume() > k_promising * volume_) return;
   const SweptFit fit = descend_around(kind_, points_, start);
@@ -192,7 +191,7 @@ void BranchAndBound::search(const Cell& cell, const Frame3& start) {
 
 void BranchAndBound::process(Cell cell) {
   LengthPolytope polytope = polytope_of(cell);
-  const Frame3 frame = orthonormal(turned(cell.rotations.frame, cell.rotations.centre()));
+  const Axes frame = orthonormal(turned(cell.rotations.frame, cell.rotations.centre()));
   for (int round = 0; round < k_most_rounds && !spent(); ++round) {
     cell.bound = std::max(cell.bound, polytope.least_volume());
     if (cell.bound >= target()) {
@@ -240,7 +239,7 @@ void BranchAndBound::process(Cell cell) {
 // volume has there. (The plane alone would never choose a turn that is so free that no force resists it; the
 // motion alone does not know which turns matter.)
 int BranchAndBound::axis_to_halve(const Cell& cell) const {
-  const Frame3 frame = turned(cell.rotations.frame, cell.rotations.centre());
+  const Axes frame = turned(cell.rotations.frame, cell.rotations.centre());
   DoubleBox box;
   for (const std::uint32_t i : cell.working) box.grow(into(frame, points_[i]));
   const Double3 e = box.extent(), half = (cell.rotations.high - cell.rotations.low) * 0.5;

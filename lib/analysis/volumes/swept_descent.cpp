@@ -44,7 +44,7 @@ std::vector<Double3> chosen(std::span<const Double3> points, const std::vector<s
 
 }  // namespace
 
-SweptRectangle roomy_rectangle(Swept kind, std::span<const Double3> points, const Frame3& frame) {
+SweptRectangle roomy_rectangle(Swept kind, std::span<const Double3> points, const Axes& frame) {
   DoubleBox box;
   for (const Double3& p : points) box.grow(into(frame, p));
   SweptFit fit{frame, {}};
@@ -62,7 +62,7 @@ SweptRectangle roomy_rectangle(Swept kind, std::span<const Double3> points, cons
   return s;
 }
 
-std::vector<std::uint32_t> extreme_points(std::span<const Double3> points, const Frame3& frame) {
+std::vector<std::uint32_t> extreme_points(std::span<const Double3> points, const Axes& frame) {
   constexpr int k_directions = 7;
   std::array<double, 2 * k_directions> most;
   most.fill(-std::numeric_limits<double>::infinity());
@@ -98,7 +98,7 @@ double reach_of(std::span<const Double3> points, const SweptFit& fit) {
   return std::sqrt(square);
 }
 
-SweptFit descend_around(Swept kind, std::span<const Double3> points, const Frame3& start,
+SweptFit descend_around(Swept kind, std::span<const Double3> points, const Axes& start,
                         const DescentOptions& options) {
   SweptFit fit{orthonormal(start), {}};
   std::vector<std::uint32_t> working = extreme_points(points, fit.frame);

@@ -16,17 +16,17 @@ struct DescentOptions {
 };
 
 // The rectangle about the points in `frame` with the least h-range: what to start from. Encloses strictly.
-SweptRectangle roomy_rectangle(Swept kind, std::span<const Double3> points, const Frame3& frame);
+SweptRectangle roomy_rectangle(Swept kind, std::span<const Double3> points, const Axes& frame);
 
 // A few points that are extreme in the directions of the frame and between them, ascending.
-std::vector<std::uint32_t> extreme_points(std::span<const Double3> points, const Frame3& frame);
+std::vector<std::uint32_t> extreme_points(std::span<const Double3> points, const Axes& frame);
 
 // The largest distance of a point from the rectangle, radius aside.
 double reach_of(std::span<const Double3> points, const SweptFit& fit);
 
 // `points`: at least one, |p| about 1 or less. Every point is within rectangle.r of the rectangle, but for
 // the rounding of the distance.
-SweptFit descend_around(Swept kind, std::span<const Double3> points, const Frame3& start,
+SweptFit descend_around(Swept kind, std::span<const Double3> points, const Axes& start,
                         const DescentOptions& options = {});
 
 }  // namespace copse

@@ -1,6 +1,6 @@
 #include "lib/analysis/volumes/swept_search.h"
 
-#include "lib/analysis/volumes/principal_frame.h"
+#include "lib/analysis/volumes/principal_axes.h"
 
 #include <algorithm>
 
@@ -12,16 +12,16 @@ constexpr int k_rough_rounds = 2;
 constexpr std::size_t k_finalists = 6;           // of 13
 constexpr std::size_t k_lozenge_finalists = 14;  // of 27: the rough order is no more than a hint
 
-Frame3 about(const Frame3& base, const Double3& direction) {
+Axes about(const Axes& base, const Double3& direction) {
   const Double3 u = normalized(direction);
   const Double3 side = std::abs(u.x) < 0.7 ? Double3{1, 0, 0} : Double3{0, 1, 0};
-  const Frame3 local = orthonormal({u, side, {}});
+  const Axes local = orthonormal({u, side, {}});
   return {out_of(base, local[0]), out_of(base, local[1]), out_of(base, local[2])};
 }
 
 // The axes, the face diagonals and the body diagonals.
-std::vector<Frame3> directions(const Frame3& base) {
-  std::vector<Frame3> out;
+std::vector<Axes> directions(const Axes& base) {
+  std::vector<Axes> out;
   for (int x = 1; x >= -1; --x) {
     for (int y = 1; y >= -1; --y) {
       for (int z = 1; z >= -1; --z) {
@@ -35,11 +35,11 @@ std::vector<Frame3> directions(const Frame3& base) {
 
 // The frames modulo the eight rotations of a rectangle: each axis of the base across, turned to the corners
 // of a cube in the space of rotations, and not turned.
-std::vector<Frame3> frames(const Frame3& base) {
+std::vector<Axes> frames(const Axes& base) {
   constexpr double k_turn = 0.2071;  // half of tan(pi / 8), the cube's half side
-  std::vector<Frame3> out;
+  std::vector<Axes> out;
   for (int k = 0; k < 3; ++k) {
-    const Frame3 across{base[(k + 1) % 3], base[(k + 2) % 3], base[k]};
+    const Axes across{base[(k + 1) % 3], base[(k + 2) % 3], base[k]};
     out.push_back(across);
     for (int corner = 0; corner < 8; ++corner) {
       const auto sign = [&](int bit) { return corner >> bit & 1 ? -k_turn : k_turn; };
@@ -56,9 +56,9 @@ double cost(Swept kind, const SweptFit& fit) {
 }  // namespace
 
 SweptFit search_around(Swept kind, std::span<const Double3> points) {
-  const Frame3 base = principal_frame(points).axes;
-  std::vector<std::pair<double, Frame3>> scouts;
-  for (const Frame3& start : kind == Swept::lozenge ? frames(base) : directions(base)) {
+  const Axes base = principal_axes(points).axes;
+  std::vector<std::pair<double, Axes>> scouts;
+  for (const Axes& start : kind == Swept::lozenge ? frames(base) : directions(base)) {
     const SweptFit fit = descend_around(kind, points, start, {k_rough_gap, k_rough_rounds});
     scouts.emplace_back(cost(kind, fit), fit.frame);
   }

@@ -2,21 +2,19 @@
 // which the points lie. A capsule is one with b0 = b1; a line, one with b0 = b1 whose ends do not matter.
 #pragma once
 
+#include "lib/analysis/volumes/frame.h"
 #include "lib/formats/vec.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace copse {
 
-// A rotation: row k is local axis k in world coordinates. Axis 0 is along a, 1 along b, 2 across.
-using Frame3 = std::array<Double3, 3>;
-
-inline Double3 into(const Frame3& frame, const Double3& p) {
+// Axes are used as a rotation: axis k is row k. Axis 0 is along a, 1 along b, 2 across.
+inline Double3 into(const Axes& frame, const Double3& p) {
   return {dot(frame[0], p), dot(frame[1], p), dot(frame[2], p)};
 }
-inline Double3 out_of(const Frame3& frame, const Double3& q) {
+inline Double3 out_of(const Axes& frame, const Double3& q) {
   return frame[0] * q.x + frame[1] * q.y + frame[2] * q.z;
 }
 
@@ -50,7 +48,7 @@ inline Double3 offset_from(const SweptRectangle& s, const Double3& q) {
 
 // `frame` turned by the rotation whose Cayley vector (axis times the tangent of half the angle, in local
 // coordinates) is g: p -> R(g) frame p.
-inline Frame3 turned(const Frame3& frame, const Double3& g) {
+inline Axes turned(const Axes& frame, const Double3& g) {
   const double n = 1 / (1 + dot(g, g));
   // Rows of R(g) = ((1 - g.g) I + 2 g g^T + 2 [g]x) / (1 + g.g)
   const double d = (1 - dot(g, g)) * n;
@@ -63,7 +61,7 @@ inline Frame3 turned(const Frame3& frame, const Double3& g) {
 }
 
 // Rows made orthonormal again, the first kept in direction.
-inline Frame3 orthonormal(const Frame3& f) {
+inline Axes orthonormal(const Axes& f) {
   const Double3 u = normalized(f[0]);
   const Double3 v = normalized(f[1] - u * dot(u, f[1]));
   return {u, v, cross(u, v)};
