@@ -73,6 +73,8 @@ class Attacher {
   void find_candidates();
   void find_candidates(std::uint32_t limb);
   bool find_turned(std::uint32_t limb);
+  bool on_plate(const Nearness& near) const;
+  void drop_plates();
   void mark_buried();
   Habit habit(double Candidate::*measure) const;
   Habit habit() const;
@@ -193,18 +195,29 @@ void Attacher::find_candidates() {
   }
 }
 
+bool Attacher::on_plate(const Nearness& near) const {
+  return limbs_.plate(limbs_.limb[limbs_.alive(segments_.rings[near.segment][0])]);
+}
+
+// Trees stand on the ground, they do not grow from it.
+void Attacher::drop_plates() {
+  std::erase_if(found_, [&](const Nearness& near) { return on_plate(near); });
+}
+
 void Attacher::find_candidates(std::uint32_t limb) {
+  if (limbs_.plate(limb)) return;
   const std::size_t begin = candidates_.size();
   const double radius = radius_[limb];
   const std::uint32_t base = bases_[limb];
   const Double3& at = limbs_.centre[base];
   segments_.tree.near(at, k_contact_reach * radius, radius / 2, limb, k_candidates, found_);
+  drop_plates();
   for (const Nearness& near : found_) candidates_.push_back(candidate(near, base, radius));
   const bool on_ground = stands_on_ground(limb, std::span(candidates_).subspan(begin));
   if (on_ground) candidates_.resize(begin);
   if (on_ground || !found_.empty() || find_turned(limb)) return;
   Nearness near;
-  if (segments_.tree.nearest(at, k_float_gap * reach_[limb], limb, near)) {
+  if (segments_.tree.nearest(at, k_float_gap * reach_[limb], limb, near) && !on_plate(near)) {
     candidates_.push_back(candidate(near, base, radius));
     candidates_.back().doubt = k_cost_doubt;
   }
@@ -218,6 +231,7 @@ bool Attacher::find_turned(std::uint32_t limb) {
   const double radius = limbs_.diameter[end] / 2;
   const std::size_t begin = candidates_.size();
   segments_.tree.near(limbs_.centre[end], k_contact_reach * radius, radius / 2, limb, k_candidates, found_);
+  drop_plates();
   for (const Nearness& near : found_) {
     if (mean_radius_[limb] > k_thicker_child * near.radius) continue;
     candidates_.push_back(candidate(near, end, radius));

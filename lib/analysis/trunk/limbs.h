@@ -53,6 +53,9 @@ struct Limbs {
   std::uint32_t parent_of(std::uint32_t r) const { return parent[r] == k_none ? k_none : alive(parent[r]); }
 
   std::uint32_t size = 0;  // limbs
+  std::vector<std::uint8_t>
+      is_plate;  // one a limb, or none where there is no plate: ground that trees stand on
+  bool plate(std::uint32_t l) const { return l < is_plate.size() && is_plate[l] != 0; }
 
   // Appends a ring to limb number `size`; its band has its own number. Finish with ++size.
   void append(const RingMeasure& measure, std::uint32_t ring_parent, RadiusSource ring_source,

@@ -7,6 +7,7 @@
 #include "lib/analysis/trunk/ring_reader.h"
 #include "lib/analysis/trunk/root.h"
 #include "lib/analysis/trunk/surfaces.h"
+#include "lib/analysis/trunk/tolerances.h"
 #include "lib/analysis/trunk/welded.h"
 
 #include <algorithm>
@@ -31,6 +32,26 @@ void append_welded(const Hierarchy& part, std::span<const std::uint32_t> triangl
   limbs.notes.insert(limbs.notes.end(), part.notes.begin(), part.notes.end());
 }
 
+// Ground that trees stand on: flat, half as wide as everything or wider, at the bottom.
+bool is_plate(const DoubleBox& surface, const DoubleBox& all) {
+  const Double3 e = surface.extent(), whole = all.extent();
+  return e.y <= k_plate_height * std::min(e.x, e.z) &&
+         std::min(e.x / whole.x, e.z / whole.z) >= k_plate_width &&
+         surface.min.y - all.min.y <= k_plate_height * whole.y && whole.y > e.y;
+}
+
+void mark_plates(const TrunkMesh& mesh, const Surfaces& surfaces, Limbs& limbs) {
+  if (surfaces.size() < 2) return;
+  DoubleBox all;
+  for (const Double3& p : mesh.positions) all.grow(p);
+  limbs.is_plate.assign(surfaces.size(), 0);
+  for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+    DoubleBox box;
+    for (const std::uint32_t v : surfaces.vertices(s)) box.grow(mesh.positions[v]);
+    limbs.is_plate[s] = is_plate(box, all);
+  }
+}
+
 Limbs read_limbs(const TrunkMesh& mesh, const RecoverOptions& options) {
   Limbs limbs;
   limbs.owner.assign(mesh.triangles.size(), k_none);
@@ -52,6 +73,7 @@ Limbs read_limbs(const TrunkMesh& mesh, const RecoverOptions& options) {
     append_welded(recover_welded(mesh, triangles, welded), triangles, limbs);
     welded_triangles += triangles.size();
   }
+  mark_plates(mesh, surfaces, limbs);
   for (const auto& [triangle, original] : fans.repeated) {
     limbs.owner[triangle] = limbs.owner[original];
     limbs.lid[triangle] = limbs.lid[original];

@@ -53,8 +53,10 @@ class RingWalk {
   // How well a ring may be the base of the whole: 0 at an end that is open or capped, or lies with others at
   // a border; less at a pointed end; least where the limb goes on.
   double root_penalty(std::uint32_t node) const {
-    if (g_.site_of[node] != k_none)
-      return g_.is_open[g_.site_of[node]] || g_.ends[g_.site_of[node]].size() == 1 ? 0 : 2;
+    if (const std::uint32_t site = g_.site_of[node]; site != k_none) {
+      // A closed lump at the end of a limb may be anything.
+      return g_.is_open[site] ? 0 : g_.ends[site].size() == 1 ? 0.5 : 2;
+    }
     if (g_.bands_of[node].size() == 1) return 0;
     double least = 2;
     for (const std::uint32_t b : g_.bands_of[node]) {

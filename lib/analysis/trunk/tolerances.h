@@ -57,6 +57,10 @@ inline constexpr double k_ground_level = 0.25;
 // Radii of another stem from its axis, up to which a stem that stands on the ground grows from that stem and
 // not from the ground.
 inline constexpr double k_ground_offset = 0.5;
+// Height of a plate that trees stand on over its smaller width, and how far it may lie above the lowest point
+// over the trunk's height; its widths over the trunk's.
+inline constexpr double k_plate_height = 0.1;
+inline constexpr double k_plate_width = 0.5;
 // Radii of the base between its centre and the surface of what it is attached to. A tube that is laid against
 // its parent along its side touches it at one; the second is for skins that are polygons or bent.
 inline constexpr double k_contact_reach = 2;

@@ -2,6 +2,7 @@
 
 #include "lib/analysis/trunk/fit.h"
 #include "lib/analysis/trunk/fork_rings.h"
+#include "lib/analysis/trunk/implied_rings.h"
 #include "lib/analysis/trunk/surface.h"
 #include "lib/analysis/trunk/surface_skeleton.h"
 #include "lib/analysis/trunk/welded_tolerances.h"
@@ -43,18 +44,29 @@ void add_only_radius(const Surface& s, Hierarchy& h) {
   h.segment_of.assign(s.triangles.size(), k_none);
 }
 
+// What a tool has cut into squares shows many more rings than a person would draw.
+Hierarchy as_drawn(const Surface& s, Hierarchy rings) {
+  if (!is_evenly_cut(rings)) return rings;
+  Hierarchy drawn = without_implied_rings(rings);
+  drawn.notes.push_back(fmt::format(
+      "surface of {} triangles at mesh triangle {}: {} of {} rings lie at even steps between the "
+      "others, as a subdivision puts them, and are left out",
+      s.triangles.size(), s.order.front(), rings.radii.size() - drawn.radii.size(), rings.radii.size()));
+  return drawn;
+}
+
 Hierarchy recover_surface(const Surface& s, const WeldedOptions& options, bool may_flow) {
   RingReading rings;
   if (options.method != WeldedMethod::surface) rings = read_fork_rings(s);
   if (options.method == WeldedMethod::rings) {
     if (rings.hierarchy.radii.empty()) add_only_radius(s, rings.hierarchy);
-    return std::move(rings.hierarchy);
+    return as_drawn(s, std::move(rings.hierarchy));
   }
-  if (rings.in_bands >= k_rings_suffice) return std::move(rings.hierarchy);
+  if (rings.in_bands >= k_rings_suffice) return as_drawn(s, std::move(rings.hierarchy));
   auto [skeleton, name] = skeletonize(s, options.surface, may_flow);
   if (!rings.hierarchy.radii.empty() &&
       fit_of(s, rings.hierarchy).cost() <= k_rings_may_cost * fit_of(s, skeleton).cost()) {
-    return std::move(rings.hierarchy);
+    return as_drawn(s, std::move(rings.hierarchy));
   }
   if (skeleton.radii.empty()) add_only_radius(s, skeleton);
   skeleton.notes.push_back(

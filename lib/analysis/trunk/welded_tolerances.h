@@ -122,6 +122,21 @@ inline constexpr std::size_t k_flow_triangles = 8000;
 // middle.
 inline constexpr std::size_t k_flow_triangles_at_least = 2000;
 
+// --- implied_rings
+
+// Rings with a ring before them: fewer tell nothing about how a surface was cut.
+inline constexpr std::size_t k_even_steps = 64;
+// The median step, in radii, and its inverse, between which the pieces of a surface are about square: four to
+// sixteen sides.
+inline constexpr double k_square_step = 3;
+// Steps within this ratio of the median are even, and this share of all must be.
+inline constexpr double k_even_ratio = 1.5;
+inline constexpr double k_even_share = 0.85;
+// Radians between a step and the next: less is rounding.
+inline constexpr double k_corner_bend = 0.005;
+// Radii by which a ring may be off the line between the rings that stay, centre and radius together.
+inline constexpr double k_implied_tolerance = 0.03;
+
 // --- welded
 
 // Share of the triangles that lie between rings from which on the rings are taken without trying anything
