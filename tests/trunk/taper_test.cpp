@@ -17,6 +17,15 @@ TEST(Taper, FindsTheEndThatMostStepsTaperFrom) {
   EXPECT_EQ(possible, (std::vector<std::uint8_t>{0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1, 0, 1, 1, 0, 1}));
 }
 
+TEST(Taper, ARoundedFootOfATreeMayBeItsBase) {
+  Limbs limbs;
+  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {0, 1.3, 1.7, 1.2, 0.4});  // closed by a point below
+  limbs.append({{1, 3, 0}, 0.9, {}}, 3, RadiusSource::ring, {});   // a stub at the fork
+  limbs.limb.back() = 0;
+  const auto possible = possible_bases(limbs, end_rings(limbs));
+  EXPECT_EQ(possible, (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 0}));
+}
+
 TEST(Taper, FollowsALimbThroughARootInItsMiddle) {
   Limbs limbs;
   add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 0.9, 0.8});

@@ -86,5 +86,19 @@ TEST(TrunkMesh, OfNothingIsEmpty) {
   EXPECT_TRUE(make_trunk_mesh(mesh, std::vector<std::uint8_t>{0}).positions.empty());
 }
 
+TEST(TrunkMesh, VerticesThatAreNearInTheMiddleOfASurfaceStayApart) {
+  TubeMaker maker;
+  TubeShape shape;
+  shape.axis = axis_between({0, 0, 0}, {0, 4, 0}, 5);
+  shape.radius = taper_between(0.5, 0.5, 5);
+  shape.sides = 8;
+  maker.add(shape);
+  // Two rings meet almost, in one point.
+  Double3 &low = maker.mesh.positions[8], &high = maker.mesh.positions[16];
+  ASSERT_NEAR(distance(low, high), 1, 1e-9);
+  high = low + Double3{0, 1e-5, 0};
+  EXPECT_EQ(make_trunk_mesh(maker.mesh, all_trunk(maker.mesh)).positions.size(), 40u);
+}
+
 }  // namespace
 }  // namespace copse

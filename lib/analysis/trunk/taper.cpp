@@ -9,6 +9,21 @@
 namespace copse {
 namespace {
 
+// The thickness of each end: its own, or of the ring that it closes.
+std::vector<double> end_thickness(const Limbs& limbs, std::span<const std::uint32_t> ends) {
+  std::vector<double> thickness(limbs.rings(), 0);
+  for (const std::uint32_t e : ends) {
+    const std::uint32_t p = limbs.parent_of(e);
+    thickness[e] = limbs.diameter[e] > 0 || p == k_none ? limbs.diameter[e] : limbs.diameter[p];
+  }
+  for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
+    if (limbs.merged_into[r] != k_none || limbs.parent[r] == k_none) continue;
+    double& root = thickness[limbs.parent_of(r)];
+    if (limbs.diameter[limbs.parent_of(r)] == 0) root = std::max(root, limbs.diameter[r]);
+  }
+  return thickness;
+}
+
 // What a limb with two ends does on the way from its first end to its second.
 struct Profile {
   std::array<std::uint32_t, 2> end{k_none, k_none};
@@ -48,11 +63,12 @@ std::vector<std::uint32_t> end_rings(const Limbs& limbs) {
 
 std::vector<std::uint8_t> possible_bases(const Limbs& limbs, std::span<const std::uint32_t> ends) {
   std::vector<Profile> profiles(limbs.size);
+  const std::vector<double> thickness = end_thickness(limbs, ends);
   for (const std::uint32_t e : ends) {
     Profile& profile = profiles[limbs.limb[e]];
     if (profile.ends < 2) profile.end[profile.ends] = e;
     ++profile.ends;
-    profile.thickest = std::max(profile.thickest, limbs.diameter[e]);
+    profile.thickest = std::max(profile.thickest, thickness[e]);
   }
   std::vector<std::uint8_t> possible(limbs.rings(), 0);
   for (Profile& profile : profiles) {
@@ -65,7 +81,7 @@ std::vector<std::uint8_t> possible_bases(const Limbs& limbs, std::span<const std
   }
   for (const std::uint32_t e : ends) {
     const Profile& profile = profiles[limbs.limb[e]];
-    if (profile.ends != 0) possible[e] = limbs.diameter[e] * k_like_thickness >= profile.thickest;
+    if (profile.ends != 0) possible[e] = thickness[e] * k_like_thickness >= profile.thickest;
   }
   return possible;
 }

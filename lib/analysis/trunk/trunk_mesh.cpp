@@ -39,6 +39,40 @@ UsedVertices used_by_trunk(const Mesh& mesh, std::span<const std::uint8_t> is_tr
   return used;
 }
 
+std::uint64_t scrambled(std::uint64_t x) {  // a bijection that leaves no pattern for sums to cancel in
+  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+  return x ^ x >> 31;
+}
+
+// Which positions have triangles all round: each neighbour is met an even number of times. One in 2^64 others
+// passes for such a one.
+std::vector<std::uint8_t> are_closed(std::span<const Triangle> triangles,
+                                     std::span<const std::uint32_t> same) {
+  std::vector<std::uint64_t> odd(same.size(), 0);
+  for (const Triangle& t : triangles) {
+    const std::uint32_t a = same[t[0]], b = same[t[1]], c = same[t[2]];
+    if (a == b || b == c || a == c) continue;
+    const std::uint64_t x = scrambled(a + 1ull), y = scrambled(b + 1ull), z = scrambled(c + 1ull);
+    odd[a] ^= y ^ z, odd[b] ^= x ^ z, odd[c] ^= x ^ y;
+  }
+  std::vector<std::uint8_t> closed(same.size());
+  for (std::size_t v = 0; v < same.size(); ++v) closed[v] = odd[same[v]] == 0;
+  return closed;
+}
+
+// Near positions are one where surfaces end: at seams, and where pieces meet. Where nothing is open nothing
+// was computed twice, and two vertices that are near are two.
+std::vector<std::uint32_t> weld_open(std::span<const Double3> positions,
+                                     std::span<const Triangle> triangles) {
+  const std::vector<std::uint8_t> closed = are_closed(triangles, weld(positions, 0.0));
+  std::vector<double> reach = weld_tolerances(positions, triangles);
+  for (std::size_t v = 0; v < reach.size(); ++v) {
+    if (closed[v]) reach[v] = 0;
+  }
+  return weld(positions, reach);
+}
+
 // Gives every (representative, surface) pair a vertex of its own, numbered by its lowest used vertex.
 class SurfaceVertices {
  public:
@@ -75,7 +109,7 @@ bool is_degenerate(const Triangle& t) {
 TrunkMesh make_trunk_mesh(const Mesh& mesh, std::span<const std::uint8_t> is_trunk, double tolerance) {
   UsedVertices used = used_by_trunk(mesh, is_trunk);
   const std::vector<std::uint32_t> representative =
-      tolerance < 0 ? weld(used.positions, used.triangles) : weld(used.positions, tolerance);
+      tolerance < 0 ? weld_open(used.positions, used.triangles) : weld(used.positions, tolerance);
   // Degenerate triangles still connect the piece that they lie in.
   const Components pieces = connected_components(used.triangles);
   TrunkMesh trunk;
