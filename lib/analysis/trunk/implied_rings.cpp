@@ -134,15 +134,19 @@ class Thinning {
 }  // namespace
 
 bool is_evenly_cut(const Hierarchy& hierarchy) {
-  std::vector<double> steps;
+  std::vector<double> steps, radii;
   for (const RadiusNode& r : hierarchy.radii) {
     if (r.parent == k_none || r.source != RadiusSource::ring) continue;
     const RadiusNode& parent = hierarchy.radii[r.parent];
     const double radius = (r.diameter + parent.diameter) / 4;
-    if (parent.source == RadiusSource::ring && radius > 0)
-      steps.push_back(distance(r.centre, parent.centre) / radius);
+    if (parent.source != RadiusSource::ring || radius <= 0) continue;
+    steps.push_back(distance(r.centre, parent.centre) / radius);
+    radii.push_back(radius);
   }
   if (steps.size() < k_even_steps) return false;
+  std::ranges::sort(radii);
+  const std::size_t tenth = radii.size() / 10;
+  if (radii[radii.size() - 1 - tenth] < k_uneven_radii * radii[tenth]) return false;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::ranges::nth_element(steps, middle);
   const double median = *middle;

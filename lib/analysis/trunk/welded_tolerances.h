@@ -132,10 +132,13 @@ inline constexpr double k_square_step = 3;
 // Steps within this ratio of the median are even, and this share of all must be.
 inline constexpr double k_even_ratio = 1.5;
 inline constexpr double k_even_share = 0.85;
+// The thickest tenth of the rings over the thinnest: where all are alike, steps of one length are even steps
+// too.
+inline constexpr double k_uneven_radii = 2;
 // Radians between a step and the next: less is rounding.
 inline constexpr double k_corner_bend = 0.005;
 // Radii by which a ring may be off the line between the rings that stay, centre and radius together.
-inline constexpr double k_implied_tolerance = 0.03;
+inline constexpr double k_implied_tolerance = 0.02;
 
 // --- welded
 
