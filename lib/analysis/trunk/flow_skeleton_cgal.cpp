@@ -243,6 +243,9 @@ CurveSkeleton flow_skeleton(const Surface& surface) {
       if (!close(mesh)) continue;
       Flow::Skeleton flowed;
       Flow flow(mesh);
+      // Towards the middle by Voronoi poles: CGAL asks which of them lie inside, and on meshes that intersect
+      // themselves it asks for ever. Circles are centred on sections later on.
+      flow.set_is_medially_centered(false);
       flow(flowed);
       add_skeleton(flowed, mesh, frame, k);
     }

@@ -5,7 +5,7 @@
 
 namespace copse {
 
-// Whether the rings lie at even steps in their own radii, everywhere on the surface: nobody lays rings so,
+// Whether the rings lie at even steps in their own radii, thick or thin, everywhere: nobody lays rings so,
 // but tools that cut a surface into squares do (skin modifiers, subdivision, remeshing). A generator's steps
 // in radii grow along every limb that tapers.
 bool is_evenly_cut(const Hierarchy& hierarchy);
