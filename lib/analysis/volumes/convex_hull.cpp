@@ -2,8 +2,11 @@
 
 #include "lib/analysis/volumes/exact_hull.h"
 #include "lib/analysis/volumes/frame.h"
+#include "lib/analysis/volumes/hull_candidates.h"
+#include "lib/analysis/volumes/hull_loss.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -144,11 +147,21 @@ void hull_of_space(Points points, ConvexHull& hull) {
   measure(hull);
 }
 
-// The first of the caller's points at each vertex.
+// The first of the caller's points at each vertex. Most points are sorted out by one bit of a table.
 void find_indices(Points all, ConvexHull& hull) {
   constexpr auto k_none = static_cast<std::uint32_t>(-1);
+  const std::size_t size = std::bit_ceil(hull.vertices.size() * 16), mask = size - 1;
+  const auto slot = [&](const Double3& p) {
+    return (std::bit_cast<std::uint64_t>(p.x) * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint64_t>(p.y)) *
+                   0xbf58476d1ce4e5b9u >>
+               32 &
+           mask;
+  };
+  std::vector<char> met(size, 0);
+  for (const Double3& v : hull.vertices) met[slot(v)] = 1;
   hull.indices.assign(hull.vertices.size(), k_none);
   for (std::uint32_t i = 0; i < all.size(); ++i) {
+    if (!met[slot(all[i])]) continue;
     const auto at =
         std::lower_bound(hull.vertices.begin(), hull.vertices.end(), all[i], lexicographically_less);
     if (at == hull.vertices.end() || *at != all[i]) continue;
@@ -159,17 +172,19 @@ void find_indices(Points all, ConvexHull& hull) {
 
 }  // namespace
 
-ConvexHull convex_hull(const PointCloud& cloud, const HullOptions&) {
+ConvexHull convex_hull(const PointCloud& cloud, const HullOptions& options) {
   ConvexHull hull;
   hull.frame = cloud.frame;
   hull.box = cloud.box;
-  const std::vector<Double3> points = distinct_points(cloud.points);
-  find_dimension(points, hull);
-  if (hull.dimension == 0) hull.vertices = {points.front()};
-  if (hull.dimension == 1) hull_of_line(points, hull);
-  if (hull.dimension == 2) hull_of_plane(points, hull);
-  if (hull.dimension == 3) hull_of_space(points, hull);
-  hull.boundary = hull.vertices;
+  HullCandidates candidates = hull_candidates(cloud.points, options.max_candidates);
+  find_dimension(candidates.all, hull);
+  if (hull.dimension == 0) hull.vertices = {candidates.all.front()};
+  if (hull.dimension == 1) hull_of_line(candidates.all, hull);
+  if (hull.dimension == 2) hull_of_plane(candidates.all, hull);
+  if (hull.dimension == 3) hull_of_space(candidates.chosen, hull);
+  const bool kernel = hull.dimension == 3 && candidates.chosen.size() < candidates.all.size();
+  if (kernel) hull.loss = hull_loss(hull, candidates.all);
+  hull.boundary = kernel ? std::move(candidates.all) : hull.vertices;
   find_indices(cloud.points, hull);
   return hull;
 }

@@ -46,7 +46,7 @@ struct ConvexHull {
 };
 
 struct HullOptions {
-  std::size_t max_candidates = 30'000;  // more than these give a kernel of at most as many
+  std::size_t max_candidates = 10'000;  // more than these give a kernel of at most as many
 };
 
 // Not one byte depends on the order or repetition of the points, except `indices` (the first of equal

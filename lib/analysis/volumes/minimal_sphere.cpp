@@ -204,6 +204,15 @@ struct NoFrame {
   Double3 in(const Double3& p) const { return p; }
 };
 
+double reach_from(const Double3& centre, std::span<const Double3> points, const Frame&, const Frame& frame) {
+  return farthest_from({}, points, {centre, frame.scale}).distance / frame.scale;
+}
+double reach_from(const Double3& centre, std::span<const Double3> points, const NoFrame&, const Frame&) {
+  double most = 0;
+  for (const Double3& p : points) most = std::max(most, squared(p - centre));
+  return std::sqrt(most);
+}
+
 template <class InFrame>
 MinimalSphere minimal_in(std::span<const Double3> points, const InFrame& in, const Frame& frame) {
   PointLoop<InFrame> loop(points, in);
@@ -211,14 +220,15 @@ MinimalSphere minimal_in(std::span<const Double3> points, const InFrame& in, con
   found.sphere.centre = frame.out(loop.run().centre);
   found.lower_radius = loop.ball.radius() / frame.scale;
   // From the centre as it was rounded, not as it was found.
-  found.sphere.radius = farthest_from({}, points, {found.sphere.centre, frame.scale}).distance / frame.scale;
+  found.sphere.radius = reach_from(found.sphere.centre, points, in, frame);
   const auto support = loop.ball.support();
   for (std::uint32_t i = 0; i < points.size() && found.support.size() < support.size(); ++i) {
     const Double3 q = in.in(points[i]);
-    const bool first = std::none_of(found.support.begin(), found.support.end(),
-                                    [&](std::uint32_t k) { return in.in(points[k]) == q; });
     for (const Sphere& s : support) {
-      if (s.centre == q && first) found.support.push_back(i);
+      if (s.centre != q) continue;
+      const bool met = std::any_of(found.support.begin(), found.support.end(),
+                                   [&](std::uint32_t k) { return in.in(points[k]) == q; });
+      if (!met) found.support.push_back(i);
     }
   }
   return found;

@@ -1,0 +1,16 @@
+// hull_loss: how far points are outside a polytope.
+#pragma once
+
+#include "lib/analysis/volumes/convex_hull.h"
+
+#include <span>
+
+namespace copse {
+
+// An upper bound of the largest distance of the points from the hull of dimension 3 (of `vertices`, `faces`,
+// `edges`); 0 when none is outside. Walks from facet to facet towards the one that the ray from the middle to
+// the point leaves by: on a convex polytope no such walk ends too early. O(points) when neighbours follow
+// each other.
+double hull_loss(const ConvexHull& hull, std::span<const Double3> points);
+
+}  // namespace copse
