@@ -3,6 +3,7 @@
 #include "lib/analysis/volumes/oriented_boxes.h"
 #include "lib/analysis/volumes/volume_measures.h"
 #include "tests/volumes/inside.h"
+#include "tests/volumes/reference_models.h"
 
 #include <gtest/gtest.h>
 
@@ -88,6 +89,34 @@ TEST(MinimalBox, IsTheSameForAnyOrderAndTheSameSizeForAnyPlace) {
   const Fit other = fit(points, options);
   EXPECT_EQ(other.box.volume, f.box.volume);
   EXPECT_EQ(other.box.lower_bound, f.box.lower_bound);
+}
+
+// The smallest box known of a reference model: bench/volumes_best.txt.
+double best_known_box(const std::string& model) {
+  std::ifstream list(COPSE_SOURCE_DIR "/bench/volumes_best.txt");
+  std::string file;
+  double points = 0, box = 0;
+  for (std::string line; std::getline(list, line);) {
+    std::istringstream row(line);
+    if (row >> file >> points >> box && file == "meshes/" + model + ".off") return box;
+  }
+  return 0;
+}
+
+TEST(MinimalBox, OfReferenceModelsIsTheBestKnownAndProvenToBe) {
+  if (reference_folder().empty()) GTEST_SKIP() << "no reference models: apt-get install libcgal-demo";
+  for (const std::string model : {"elephant", "blade", "couplingdown", "mushroom", "lion-head"}) {
+    const double best = best_known_box(model);
+    const std::vector<Double3> points = reference_points(model);
+    ASSERT_GT(points.size(), 1000u) << model;
+    EXPECT_LE(fit(points).volume(), best * 1.001) << model;
+    MinimalBoxOptions options;
+    options.gap = 1e-4;
+    const Fit proven = fit(points, options);
+    EXPECT_LE(proven.volume(), best * 1.00001) << model;
+    EXPECT_LE(proven.bound(), best * 1.00001) << model;
+    EXPECT_GE(proven.bound() * 1.0001, proven.volume() * (1 - 1e-12)) << model;
+  }
 }
 
 }  // namespace
