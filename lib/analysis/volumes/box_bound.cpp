@@ -15,8 +15,9 @@ constexpr double k_zone = 0.41421356237309515;  // tan(pi / 8), rounded up
 constexpr double k_rounding = 1e-14;            // of a pair's length: the error of its products
 constexpr int k_corners = 8;
 constexpr int k_steps = 24;  // of the search for a combination of pairs
-// Laid a little askew, so that the known minimum does not lie on the boundary of cells.
-constexpr Double3 k_askew{0.0137, -0.0231, 0.0179};
+// The zone's cell is a little larger than the zone and off its middle, so that the known minimum does not lie
+// on the boundary of cells; but not turned: turns about a needle's axis must lie along one component.
+constexpr Double3 k_aside{0.0137, -0.0231, 0.0179};
 
 using Candidates = std::array<std::vector<std::uint32_t>, 3>;  // per axis: what can be first or last along it
 
@@ -54,7 +55,7 @@ class BoxBounder {
  public:
   BoxBounder(std::span<const Double3> vertices, const Axes& base, double volume,
              const BoxBoundOptions& options)
-      : vertices_(vertices), base_(rotated(base, k_askew)), volume_(volume), options_(options) {}
+      : vertices_(vertices), base_(base), volume_(volume), options_(options) {}
 
   BoxBound run() {
     const auto start = std::chrono::steady_clock::now();
@@ -87,7 +88,9 @@ class BoxBounder {
     for (auto& list : all) {
       for (std::uint32_t i = 0; i < vertices_.size(); ++i) list.push_back(i);
     }
-    make({}, {k_zone, k_zone, k_zone}, all, 0);
+    Double3 half;
+    for (int i = 0; i < 3; ++i) half[i] = k_zone + std::abs(k_aside[i]);
+    make(k_aside, half, all, 0);
   }
 
   Ends ends_along(const Double3& axis, const std::vector<std::uint32_t>& list) const {
@@ -136,7 +139,8 @@ class BoxBounder {
       (*candidates)[i] = within(axes[i], e, sine_squared, above[i]);
       add_pair(axes, i, e);
     }
-    if (here < volume_ && options_.improve) volume_ = std::min(volume_, options_.improve(axes, here));
+    if (here < volume_ * (1 - 1e-7) && options_.improve)
+      volume_ = std::min(volume_, options_.improve(axes, here));
     double bound = std::max(bound_above, combined(0));
     if (bound < target()) {
       for (const Double3& corner : corners_) {
@@ -232,23 +236,24 @@ class BoxBounder {
     return weight;
   }
 
-  // The component along which the bounds change most from the middle to the boundary.
+  // The component that costs the bound most: what the widths change from the middle to the boundary, and the
+  // terms of second order (of a turn about a needle's own axis there is nothing else).
   int widest(const Double3& half) const {
-    int widest = 0;
-    double most = -1;
-    for (int k = 0; k < 3; ++k) {
-      double change = 0;
-      for (int i = 0; i < 3; ++i) {
-        double width = 0, slope = 0;
-        for (const PairBound& p : pairs_[i]) {
-          for (const double w : p.at) width = std::max(width, w);
-          slope = std::max(slope, std::abs(p.slope[k]));
-        }
-        change = std::max(change, slope * half[k] / std::max(width, 1e-300));
+    Double3 cost{3 * half.x * half.x, 3 * half.y * half.y, 3 * half.z * half.z};  // of the divisor
+    for (int i = 0; i < 3; ++i) {
+      double width = 1e-300;
+      Double3 slope;
+      for (const PairBound& p : pairs_[i]) {
+        for (const double w : p.at) width = std::max(width, w);
+        for (int k = 0; k < 3; ++k) slope[k] = std::max(slope[k], std::abs(p.slope[k]));
       }
-      if (change > most) most = change, widest = k;
+      const int j = (i + 1) % 3, m = (i + 2) % 3;
+      for (int k = 0; k < 3; ++k) cost[k] = std::max(cost[k], slope[k] * half[k] / width);
+      // slope = 2 u x d: what d is along j is half the slope of m.
+      const double ij = most_[i] * most_[j] * slope[m] / width, im = most_[i] * most_[m] * slope[j] / width;
+      cost[i] = std::max(cost[i], ij + im), cost[j] = std::max(cost[j], ij), cost[m] = std::max(cost[m], im);
     }
-    return widest;
+    return cost.x >= cost.y && cost.x >= cost.z ? 0 : cost.y >= cost.z ? 1 : 2;
   }
 
   std::span<const Double3> vertices_;
