@@ -19,7 +19,9 @@ constexpr double k_least_slope = 1e-4;       // Armijo
 constexpr double k_largest_turn = 0.5;       // radians a step
 constexpr double k_line_end = 1e3;           // beyond every point
 constexpr double k_least_diagonal = 1e-300;  // an unknown that nothing depends on stays where it is
-constexpr double k_singular = 1e-13;         // of a unit diagonal
+// Pivots of a unit diagonal below these count as 0. A descent into a needle needs all the digits there are; a
+// separation whose forces are noise is worse than one that has stopped early.
+constexpr double k_singular_descent = 1e-16, k_singular_separation = 1e-13;
 
 using Vector = std::array<double, k_most_free>;
 using Matrix = std::array<Vector, k_most_free>;
@@ -131,7 +133,7 @@ VolumeSlopes slopes_of_log_volume(const SweptLengths& l) {
 // -------------------------------------------------------------------------------------------
 
 // Solves H x = -g by Cholesky's method with a unit diagonal; false when H is not positive.
-bool solve(const Matrix& h, const Vector& g, int n, Vector& x) {
+bool solve(const Matrix& h, const Vector& g, int n, double singular, Vector& x) {
   Matrix l;
   Vector scale;
   for (int i = 0; i < n; ++i) {
@@ -143,7 +145,7 @@ bool solve(const Matrix& h, const Vector& g, int n, Vector& x) {
       double sum = h[j][i] * scale[i] * scale[j];
       for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
       if (i == j) {
-        if (!(sum > k_singular)) return false;
+        if (!(sum > singular)) return false;
         l[j][j] = std::sqrt(sum);
       } else {
         l[i][j] = sum / l[j][j];
@@ -209,6 +211,7 @@ class Barrier {
   virtual void derive(double weight, bool convex, Vector& gradient, Matrix& hessian) = 0;
   virtual void accept(const Vector& free) = 0;
   virtual int constraints() const = 0;
+  virtual double singular() const = 0;
 
   void reduce(const Derivatives& d, Vector& gradient, Matrix& hessian) const;
   double unknown(int i, const Vector& free) const {
@@ -258,7 +261,7 @@ bool Barrier::step(double weight, double& decrement) {
     double largest = 0;
     for (int i = 0; i < n; ++i) largest = std::max(largest, hessian[i][i]);
     for (int i = 0; i < n; ++i) hessian[i][i] += std::max(k_least_diagonal, largest * 1e-15);
-    if (!solve(hessian, gradient, n, direction)) continue;
+    if (!solve(hessian, gradient, n, singular(), direction)) continue;
     slope = 0;
     for (int i = 0; i < n; ++i) slope += gradient[i] * direction[i];
     found = slope < 0;
@@ -366,6 +369,7 @@ class Descent final : public Barrier {
   }
 
   int constraints() const override { return static_cast<int>(points_.size()) + 2; }
+  double singular() const override { return k_singular_descent; }
 
  private:
   void place(int unknown, double v) { free_[ties_.variable(unknown)] = v; }
@@ -469,6 +473,7 @@ class Separating final : public Barrier {
 
   void accept(const Vector& free) override { free_ = free; }
   int constraints() const override { return static_cast<int>(points_.size()) + 7; }
+  double singular() const override { return k_singular_separation; }
 
  private:
   int first() const { return kind_ == Swept::lozenge ? 0 : 1; }
