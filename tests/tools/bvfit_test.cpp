@@ -152,7 +152,28 @@ TEST_F(Bvfit, EveryPartOfATreeIsFittedStoredAndVerified) {
   EXPECT_EQ(verified.status, 0) << verified.err;
   EXPECT_NE(verified.out.find("group 3"), std::string::npos);
   EXPECT_EQ(run({out, "--verify"}, "treedump").status, 0);
-  EXPECT_NE(run({out}, "treedump").out.find("bounding volumes"), std::string::npos);
+  const Outcome summary = run({out}, "treedump");
+  EXPECT_NE(summary.out.find("bounding volumes"), std::string::npos);
+  EXPECT_NE(summary.out.find(" of them certified, chosen: "), std::string::npos) << summary.out;
+  const Outcome dumped = run({out, "--json", "--arrays"}, "treedump");
+  EXPECT_EQ(dumped.status, 0) << dumped.err;
+  const json volumes = json::parse(dumped.out)["volumes"];
+  ASSERT_EQ(volumes.size(), v->sets.size());
+  EXPECT_EQ(volumes[0]["name"], "whole");
+  EXPECT_EQ(volumes[0]["volumes"][0]["numbers"][0].get<float>(), v->numbers[0]);
+}
+
+TEST_F(Bvfit, TreedumpFindsAVolumeThatIsNotWhatItSays) {
+  const std::string out = folder_.file("oak.bv.stree");
+  ASSERT_EQ(run({tree(), "--per", "groups", "--volumes", "sphere", "-q", "-o", out}).status, 0);
+  const std::string text = read_text(out);
+  std::vector<std::uint8_t> bytes(text.begin(), text.end());
+  const std::size_t radius = tampering::section_at(bytes, "VNUM") + 4 * (4 * 5 + 3);  // of the third group
+  tampering::set(bytes, radius, get<float>(bytes, radius) * 0.99f);
+  ASSERT_TRUE(write_file(out, std::span<const std::uint8_t>(bytes)));
+  const Outcome o = run({out, "--verify"}, "treedump");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.out.find("VOLU[5]: sphere (minimal) of group 2 leaves"), std::string::npos) << o.out;
 }
 
 TEST_F(Bvfit, VerifyNamesTheWorstPointOfAVolumeThatIsTooSmall) {

@@ -57,6 +57,7 @@ void note(Dump& dump, const Error& error) {
 // Reads one section of `file` into `tree`; what fails leaves it empty.
 void load_section(Dump& dump, const std::string& name) {
   auto part = dump.file->load({name});
+  if (!part && part.error().fault == Fault::usage) return;  // what other tools have added is read elsewhere
   if (!part) return note(dump, part.error());
   if (name == "PROV") dump.tree.provenance = std::move(part->provenance);
   if (name == "MATL") dump.tree.materials = std::move(part->materials);

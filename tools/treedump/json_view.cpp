@@ -1,4 +1,5 @@
 #include "lib/formats/tree_sections.h"
+#include "lib/formats/tree_volumes.h"
 #include "tools/treedump/element.h"
 #include "tools/treedump/json.h"
 #include "tools/treedump/views.h"
@@ -164,6 +165,41 @@ void add_arrays(JsonText& json, const Dump& dump) {
   json.close();
 }
 
+// What is stored round which part; the numbers with --arrays.
+void add_volumes(JsonText& json, const TreeFile& file, bool arrays) {
+  const auto volumes = load_volumes(file);
+  if (!volumes || volumes->empty()) return;
+  json.key("volumes");
+  json.open_list();
+  for (const VolumeSet& set : volumes->sets) {
+    json.open_object(JsonText::in_line);
+    json.member("name", set_name(set));
+    json.member("points", set.points);
+    json.member("chosen", set.chosen);
+    json.key("volumes");
+    json.open_list(JsonText::in_line);
+    for (std::uint32_t i = set.first; i < set.first + set.count; ++i) {
+      const VolumeRecord& r = volumes->volumes[i];
+      json.open_object(JsonText::in_line);
+      json.member("type", name_of(r.kind));
+      json.member("method", r.method_name());
+      json.member("volume", r.volume);
+      json.member("lower_bound", r.lower_bound);
+      json.member("certified", (r.flags & VolumeRecord::certified) != 0);
+      if (arrays) {
+        json.key("numbers");
+        json.open_list(JsonText::in_line);
+        for (const float x : volumes->numbers.span().subspan(r.first, r.count)) json.value(x);
+        json.close();
+      }
+      json.close();
+    }
+    json.close();
+    json.close();
+  }
+  json.close();
+}
+
 }  // namespace
 
 std::string json_text(const Dump& dump, bool arrays) {
@@ -181,6 +217,7 @@ std::string json_text(const Dump& dump, bool arrays) {
   }
   add_sections(json, dump);
   if (dump.file) add_omissions(json, *dump.file);
+  if (dump.file) add_volumes(json, *dump.file, arrays);
   if (dump.file && arrays) add_arrays(json, dump);
   json.close();
   return json.take();

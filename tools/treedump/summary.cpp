@@ -1,3 +1,4 @@
+#include "lib/formats/tree_volumes.h"
 #include "tools/treedump/text.h"
 #include "tools/treedump/views.h"
 
@@ -113,6 +114,27 @@ std::string texture_text(const Tree& tree, std::uint32_t index) {
                      bytes_text(texture.bytes.size()));
 }
 
+void add_volumes(std::string& out, const Dump& dump) {
+  const auto volumes = load_volumes(*dump.file);
+  if (!volumes || volumes->empty()) return;
+  const auto certified =
+      std::count_if(volumes->volumes.begin(), volumes->volumes.end(),
+                    [](const VolumeRecord& r) { return (r.flags & VolumeRecord::certified) != 0; });
+  std::array<std::size_t, k_volume_kinds> chosen{};
+  for (const VolumeSet& s : volumes->sets)
+    ++chosen[static_cast<std::size_t>(volumes->volumes[s.first + s.chosen].kind)];
+  std::string kinds;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    if (chosen[k] > 0)
+      kinds += fmt::format("{}{} {}", kinds.empty() ? "chosen: " : ", ", k_volume_names[k], chosen[k]);
+  }
+  add(out, "volumes",
+      listed({count_text(volumes->sets.size(), "set"), count_text(volumes->volumes.size(), "volume"),
+              fmt::format("{} of them certified", count_text(static_cast<std::uint64_t>(certified))), kinds,
+              volumes->nodes.empty() ? std::string()
+                                     : count_text(volumes->nodes.size(), "node") + " above them"}));
+}
+
 void add_materials(std::string& out, const Dump& dump) {
   const char* label = "materials";
   for (const Material& m : dump.tree.materials) {
@@ -194,6 +216,7 @@ std::string summary_text(const Dump& dump) {
     add_trunk(out, dump);
     add_hierarchy(out, dump);
     add_leaves(out, dump);
+    add_volumes(out, dump);
     add_materials(out, dump);
     add(out, "made by", provenance_text(dump.tree.provenance));
   } else {
