@@ -17,8 +17,9 @@ while read -r name arguments; do
   step treegrow "$out/$name.glb"
   "$bin/treeprep" "$out/$name.glb" -o "$out/$name.stree" --report "$out/$name.prep.json" --html "$out/$name.prep.html" -q
   step treeprep "$out/$name.stree, $out/$name.prep.html"
-  "$bin/bvfit" "$out/$name.stree" --per groups --hierarchy kd4 --export-glb "$out/$name.volumes.glb" --html "$out/$name.volumes.html" \
-    -o "$out/$name.stree" >"$out/$name.volumes.txt"
+  "$bin/bvfit" "$out/$name.stree" --sweep --export-glb "$out/$name.volumes.glb" --html "$out/$name.volumes.html" \
+    >"$out/$name.volumes.txt"
+  "$bin/bvfit" "$out/$name.stree" --per groups,segments --hierarchy kd4 --quality fast -o "$out/$name.stree" -q
   step bvfit "volumes in $out/$name.stree, $out/$name.volumes.html"
   "$bin/treedump" "$out/$name.stree" --verify -q
   "$bin/treedump" "$out/$name.stree" --hierarchy >"$out/$name.hierarchy.json"

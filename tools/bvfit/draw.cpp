@@ -186,10 +186,14 @@ Result<std::vector<ReportPicture>> volume_pictures(const Input& input, std::span
     if (fine && set.motion == VolumeMotion::rest) chosen.push_back(&set.volumes[set.chosen]);
   }
   if (chosen.empty()) return out;
+  // Thousands of outlines must not paint the mesh over.
+  const bool many = chosen.size() > 100;
   const MeshPicture parts{"Volumes of the parts", "The outline of what was chosen for each part.", 0.9,
                           is_leaf, [&](const OrthographicView& view) {
-                            std::string svg = R"(<g stroke-width="0.8">)";
-                            for (const FittedVolume* v : chosen) svg += outline_svg(*v, view, 0.06);
+                            std::string svg = many ? R"(<g stroke-width="0.5" stroke-opacity="0.3">)"
+                                                   : R"(<g stroke-width="0.9">)";
+                            for (const FittedVolume* v : chosen)
+                              svg += outline_svg(*v, view, many ? 0 : 0.06);
                             return svg + "</g>";
                           }};
   if (auto ok = add_pictures(mesh, drawn_box(chosen), parts, out); !ok) return std::unexpected(ok.error());

@@ -8,7 +8,7 @@
 namespace copse::bvfit {
 namespace {
 
-constexpr std::size_t k_sets_in_full = 4;
+constexpr std::size_t k_sets_in_full = 4, k_sets_in_report = 12;
 
 std::string excess_text(const FittedVolume& v) {
   if (v.measures.volume == 0) return "0 %";
@@ -99,14 +99,21 @@ std::string table_text(const Input& input, std::span<const SetFit> sets) {
 }
 
 void report_fits(std::span<const SetFit> sets, Report& report) {
-  Table table{"Volumes",
-              {"set", "type", "method", "volume", "lower bound", "over bound", "surface", "mean width",
-               "fit, ms", "certify, ms", "certified", ""},
-              {}};
-  for (const SetFit& set : sets) {
+  const std::vector<std::string> columns{"set",         "type",        "method",    "volume",
+                                         "lower bound", "over bound",  "surface",   "mean width",
+                                         "fit, ms",     "certify, ms", "certified", ""};
+  const auto full = sets.first(std::min(sets.size(), k_sets_in_report));
+  Table table{"Volumes", columns, {}};
+  for (const SetFit& set : full) {
     for (std::size_t i = 0; i < set.volumes.size(); ++i) table.rows.push_back(row_of(set, i));
   }
   report.tables.push_back(std::move(table));
+  if (full.size() < sets.size()) {
+    Table chosen{
+        fmt::format("What was chosen for the other {} sets", sets.size() - full.size()), columns, {}};
+    for (const SetFit& set : sets.subspan(full.size())) chosen.rows.push_back(row_of(set, set.chosen));
+    report.tables.push_back(std::move(chosen));
+  }
   for (const FittedVolume& v : sets.empty() ? std::vector<FittedVolume>{} : sets.front().volumes) {
     if (v.lower_bound <= 0) continue;
     report.errors.push_back({fmt::format("{} ({}) over its bound", name_of(v.method.kind), v.method.name),
