@@ -1,8 +1,7 @@
-#include "tools/bvfit/draw.h"
-
 #include "lib/analysis/volumes/certify.h"
 #include "lib/analysis/volumes/volume_mesh.h"
 #include "lib/formats/export/export.h"
+#include "tools/bvfit/draw.h"
 #include "tools/picture/mesh_picture.h"
 
 #include <algorithm>
@@ -77,9 +76,9 @@ std::vector<Point2> outline(std::vector<Point2> points) {
   return hull;
 }
 
-std::string outline_svg(const FittedVolume& v, const OrthographicView& view, double fill) {
+std::string outline_svg(const FittedVolume& v, const OrthographicView& view, double fill, int steps = 24) {
   std::vector<Point2> points;
-  for (const Double3& p : volume_mesh(to_double(v.volume), 24).positions) {
+  for (const Double3& p : volume_mesh(to_double(v.volume), steps).positions) {
     const Double3 q = view.project(p);
     points.push_back({q.x, q.y});
   }
@@ -193,7 +192,7 @@ Result<std::vector<ReportPicture>> volume_pictures(const Input& input, std::span
                             std::string svg = many ? R"(<g stroke-width="0.5" stroke-opacity="0.3">)"
                                                    : R"(<g stroke-width="0.9">)";
                             for (const FittedVolume* v : chosen)
-                              svg += outline_svg(*v, view, many ? 0 : 0.06);
+                              svg += outline_svg(*v, view, many ? 0 : 0.06, many ? 3 : 24);
                             return svg + "</g>";
                           }};
   if (auto ok = add_pictures(mesh, drawn_box(chosen), parts, out); !ok) return std::unexpected(ok.error());
