@@ -1,10 +1,12 @@
 // Leaves at a tenth, a fiftieth, ... of their triangles: what leaf collapse and its peers keep of them.
 //
-//   bench_lod_leaves [--views N] [--ratio R] [--no-peers] TREE...      .tree or .stree files that hold leaves
+//   bench_lod_leaves [--views N] [--ratio R] [--no-peers] [--projections] TREE...      .tree or .stree files
+//   that hold leaves
 //
 // Each ratio of triangles at the size in pixels at which it would be shown; times are of all threads
 // together.
 #include "lib/analysis/lod/leaf_collapse.h"
+#include "lib/analysis/lod/lines_points.h"
 #include "lib/analysis/measure/lod_quality.h"
 #include "lib/formats/import/image.h"
 #include "lib/formats/tree_file.h"
@@ -67,7 +69,28 @@ struct Options {
   int views = 42;
   double only = 0;  // one ratio; 0: all of them
   bool peers = true;
+  bool projections = false;  // instead: how wrong the estimates for lines and points are
 };
+
+// The largest and the mean error over 162 directions, at full, half and a tenth of coverage.
+void projections(const std::string& name, const Tree& tree) {
+  const auto directions = view_sphere(2).directions;
+  for (const double coverage : {1.0, 0.5, 0.1}) {
+    const auto errors = [&](const EstimateOptions& options) {
+      return projection_errors(tree, coverage, directions, options);
+    };
+    const ProjectionErrors e = errors({}),
+                           even = errors({.orientation = Orientation::isotropic, .divisor = 1.8}),
+                           seed = errors({.orientation = Orientation::seed});
+    fmt::print(
+        "{:24} {:4.1f}  leaf area {:.3f} {:.3f} (by 1.8: {:.3f} {:.3f})  trunk area {:.3f} {:.3f} (1/4: "
+        "{:.3f} {:.3f})  length {:.3f} {:.3f} (pi/4: {:.3f} {:.3f}, cosine: {:.3f} {:.3f})\n",
+        name, coverage, e.largest.leaf_area, e.mean.leaf_area, even.largest.leaf_area, even.mean.leaf_area,
+        e.largest.trunk_area, e.mean.trunk_area, even.largest.trunk_area, even.mean.trunk_area,
+        e.largest.length, e.mean.length, even.largest.length, even.mean.length, seed.largest.length,
+        seed.mean.length);
+  }
+}
 
 void bench(const std::filesystem::path& path, const Options& options) {
   const auto file = TreeFile::open(path);
@@ -75,6 +98,7 @@ void bench(const std::filesystem::path& path, const Options& options) {
   const auto loaded = file->load();
   if (!loaded) return fmt::print("{}\n", to_line(loaded.error(), "bench"));
   const Tree& tree = *loaded;
+  if (options.projections) return projections(path.stem().string(), tree);
   const DrawnMesh source = drawn_leaves(tree);
   if (source.triangles.empty()) return;
   Image image;
@@ -120,6 +144,8 @@ int main(int argc, char** argv) {
     const std::string argument = argv[i];
     if (argument == "--no-peers")
       options.peers = false;
+    else if (argument == "--projections")
+      options.projections = true;
     else if (argument == "--views" && i + 1 < argc)
       options.views = std::atoi(argv[++i]);
     else if (argument == "--ratio" && i + 1 < argc)
