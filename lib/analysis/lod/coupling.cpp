@@ -9,7 +9,7 @@ namespace copse {
 namespace {
 
 // What the trunk keeps of its triangles from one knot to the next, as tried.
-constexpr std::array k_portions{1.0, 0.92, 0.85, 0.78, 0.7, 0.6, 0.45, 0.25};
+constexpr std::array k_portions{1.0, 0.9, 0.8, 0.68, 0.5, 0.25};
 
 class Coupler {
  public:

@@ -9,7 +9,7 @@
 namespace copse {
 
 struct CouplingOptions {
-  double knot_ratio = 0.8;          // of the triangles of the knot before
+  double knot_ratio = 0.75;         // of the triangles of the knot before
   std::uint64_t min_triangles = 0;  // no knot below
 };
 
@@ -21,7 +21,7 @@ using LevelFloats = std::function<std::uint64_t(const LodLevel&)>;
 // triangles, taken from trunk and leaves so that `error` is least among the divisions that are tried (the
 // trunk gives up nothing, or some of what it has in several portions, or the leaves give up nothing) and
 // nothing floats. The last knot is the coarsest state of both, or the last one with min_triangles or more.
-// Without `error` both parts keep the same share. Deterministic. Calls `error` some 8 times a knot; knots:
+// Without `error` both parts keep the same share. Deterministic. Calls `error` some 7 times a knot; knots:
 // log(triangles) / log(1 / knot_ratio).
 std::vector<LodLevel> couple(const LodSpectra& spectra, const LevelError& error, const LevelFloats& floats,
                              const CouplingOptions& options = {});

@@ -1,0 +1,151 @@
+#include "lib/formats/import/import.h"
+#include "lib/formats/spectrum_file.h"
+#include "lib/formats/tree_file.h"
+#include "tests/formats/tampering.h"
+#include "tests/tools/little_obj.h"
+#include "tests/tools/process.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace copse {
+namespace {
+
+class Lodbake : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_text(folder_.path() / "oak.obj", little_tree_obj(8, 12, 60));
+    const Outcome o = run_process({"treeprep", folder_.file("oak.obj"), "-o", tree_, "-q"});
+    ASSERT_EQ(o.status, 0) << o.err;
+  }
+  Outcome bake(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"lodbake", tree_, "-o", out_});
+    return run_process(arguments);
+  }
+  std::size_t triangles(std::vector<std::string> arguments, const std::string& name = "level.obj") const {
+    arguments.insert(arguments.begin(), {"treedump", out_, "--export", folder_.file(name)});
+    const Outcome o = run_process(arguments);
+    EXPECT_EQ(o.status, 0) << o.err;
+    const auto mesh = import_mesh(folder_.path() / name);
+    return mesh ? mesh->mesh.triangles.size() : 0;
+  }
+
+  TemporaryFolder folder_;
+  std::string tree_ = folder_.file("oak.stree"), out_ = folder_.file("oak.lod.stree");
+};
+
+TEST_F(Lodbake, EveryLevelCanBeTakenFromTheFile) {
+  const Outcome o = bake({"--discrete", "0.66,0.33,0.15", "--continuous"});
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  const std::size_t full = triangles({});
+  EXPECT_EQ(full, 8u * 2 * 11 + 60);
+  EXPECT_EQ(triangles({"--level", "0"}), full);
+  std::size_t before = full;
+  for (const char* level : {"1", "2", "3"}) {
+    const std::size_t now = triangles({"--level", level});
+    EXPECT_LT(now, before);
+    EXPECT_GT(now, 0u);
+    before = now;
+  }
+  for (const double ratio : {0.9, 0.5, 0.2, 0.1, 0.05}) {
+    const std::size_t now = triangles({"--ratio", std::to_string(ratio)});
+    EXPECT_LE(static_cast<double>(now), ratio * static_cast<double>(full)) << ratio;
+  }
+  EXPECT_EQ(triangles({"--max-error", "0"}), full);
+  EXPECT_LT(triangles({"--max-error", "100"}), full / 10);
+}
+
+TEST_F(Lodbake, TheTreeItselfIsCopiedUntouched) {
+  ASSERT_EQ(bake({}).status, 0);
+  const Outcome same = run_process({"treedump", tree_, out_, "--diff"});
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  EXPECT_EQ(run_process({"treedump", out_, "--verify", "-q"}).status, 0);
+}
+
+TEST_F(Lodbake, TheSameBytesEveryTimeAndForEveryNumberOfThreads) {
+  ASSERT_EQ(bake({"--discrete", "0.5,0.1", "-j", "1"}).status, 0);
+  const std::string first = read_text(out_);
+  ASSERT_EQ(bake({"--discrete", "0.5,0.1", "-j", "4"}).status, 0);
+  EXPECT_EQ(read_text(out_), first);
+}
+
+TEST_F(Lodbake, SmallIsSmallerAndSaysHowWrongItIs) {
+  ASSERT_EQ(bake({"--discrete", "0.5"}).status, 0);
+  const auto fast = std::filesystem::file_size(out_);
+  ASSERT_EQ(bake({"--discrete", "0.5", "--encode", "small", "--report", folder_.file("r.json")}).status, 0);
+  EXPECT_LT(std::filesystem::file_size(out_), fast);
+  const auto report = nlohmann::json::parse(read_text(folder_.path() / "r.json"));
+  double error = -1;
+  for (const auto& e : report["errors"])
+    if (e["name"] == "quantisation of the trunk, largest") error = e["value"];
+  EXPECT_GT(error, 0);
+  EXPECT_LT(error, 0.01);
+  EXPECT_GT(triangles({"--level", "1"}), 0u);
+}
+
+TEST_F(Lodbake, TheReportHasAreaCoverageAndImageErrorOfEveryLevel) {
+  ASSERT_EQ(bake({"--discrete", "0.5,0.2", "--measure", "--views", "12", "--report", folder_.file("r.json"),
+                  "--html", folder_.file("r.html")})
+                .status,
+            0);
+  const auto report = nlohmann::json::parse(read_text(folder_.path() / "r.json"));
+  bool found = false;
+  for (const auto& table : report["tables"]) {
+    if (table["name"] != "quality") continue;
+    found = true;
+    ASSERT_EQ(table["rows"].size(), 3u);
+    EXPECT_EQ(table["rows"][0][3], "1.000");
+    EXPECT_EQ(table["rows"][0][6], "0.0000");
+  }
+  EXPECT_TRUE(found);
+  EXPECT_NE(read_text(folder_.path() / "r.html").find("data:image/png;base64"), std::string::npos);
+}
+
+TEST_F(Lodbake, ALevelThatErrsTooMuchIsNotWritten) {
+  const Outcome o = bake({"--discrete", "0.02", "--max-error", "0.0001"});
+  EXPECT_EQ(o.status, 4);
+  EXPECT_EQ(line_count(o.err), 1u);
+  EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
+TEST_F(Lodbake, WrongOptionsAreUsageErrors) {
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--discrete", "0.2,0.5"},
+                                             {"--discrete", "1.5"},
+                                             {"--discrete-error", "0.5,0.1"},
+                                             {"--near", "500", "--medium", "100"},
+                                             {"--near", "100", "--far", "110"},
+                                             {"--hysteresis", "100"},
+                                             {"--trunk", "magic"},
+                                             {"--position-bits", "3"}}) {
+    const Outcome o = bake(wrong);
+    EXPECT_EQ(o.status, 2) << wrong[0] << ": " << o.err;
+    EXPECT_FALSE(std::filesystem::exists(out_));
+  }
+  EXPECT_EQ(run_process({"lodbake", tree_, "-o", folder_.file("oak.tree")}).status, 2);
+}
+
+TEST_F(Lodbake, ADamagedSpectrumIsRefused) {
+  ASSERT_EQ(bake({}).status, 0);
+  std::string text = read_text(out_);
+  std::vector<std::uint8_t> bytes(text.begin(), text.end());
+  bytes[tampering::section_at(bytes, "LSTR") + 40] ^= 0x10;
+  std::ofstream(out_, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  const Outcome o = run_process({"treedump", out_, "--export", folder_.file("x.obj"), "--ratio", "0.5"});
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(line_count(o.err), 1u);
+  EXPECT_NE(o.err.find("LSTR"), std::string::npos) << o.err;
+}
+
+TEST_F(Lodbake, ByEdgesItWorksToo) {
+  ASSERT_EQ(bake({"--trunk", "edges", "--discrete", "0.5", "--divide", "even"}).status, 0);
+  EXPECT_LE(triangles({"--level", "1"}), (8u * 2 * 11 + 60) / 2);
+}
+
+}  // namespace
+}  // namespace copse

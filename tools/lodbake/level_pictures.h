@@ -1,0 +1,43 @@
+// Levels as pictures: for dividing triangles by what is seen, and for the page.
+#pragma once
+
+#include "lib/analysis/measure/drawn_mesh.h"
+#include "lib/analysis/measure/picture.h"
+#include "lib/formats/report.h"
+#include "lib/formats/result.h"
+#include "lib/formats/spectrum.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace copse::lodbake {
+
+DrawnMesh drawn_level(const LodSpectra& spectra, const LodLevel& level);
+
+// Judges levels from six sides at about the size on screen at which they are drawn: the fewer triangles, the
+// smaller the picture.
+class LevelPictures {
+ public:
+  // Keeps references to both, and to what `looks` refers to.
+  LevelPictures(const LodSpectra& spectra, const Looks& looks);
+  // Root mean square error of the pictures against full detail's.
+  double error(const LodLevel& level) const;
+
+ private:
+  static constexpr std::array k_sizes{128, 96, 48};
+  std::vector<OrthographicView> views(std::size_t size) const;
+
+  const LodSpectra& spectra_;
+  Looks looks_;
+  double full_ = 0, radius_ = 0;
+  Double3 centre_;
+  std::array<std::vector<Picture>, k_sizes.size()> source_;
+};
+
+// The levels side by side, full detail first, each with its label under it.
+Result<ReportPicture> level_strip(const LodSpectra& spectra, const Looks& looks,
+                                  const std::vector<LodLevel>& levels,
+                                  const std::vector<std::string>& labels);
+
+}  // namespace copse::lodbake

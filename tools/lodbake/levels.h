@@ -1,0 +1,14 @@
+// Which levels of a schedule are the discrete ones, and from which distance on each is drawn.
+#pragma once
+
+#include "lib/formats/spectrum.h"
+#include "tools/lodbake/options.h"
+
+namespace copse::lodbake {
+
+// Fills discrete, near, far and hysteresis of `spectra`, whose schedule is there. Distances that were not
+// given are those at which the tree, `height` metres high, is 1024 pixels x sqrt(share of its triangles) high
+// on a screen of 1080 lines that sees 60 degrees: pixels and triangles fall alike.
+void choose_levels(const Options& options, double height, LodSpectra& spectra);
+
+}  // namespace copse::lodbake

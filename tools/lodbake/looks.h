@@ -1,0 +1,24 @@
+// The textures of a tree as masks: what its leaves look like when levels are compared.
+#pragma once
+
+#include "lib/analysis/measure/picture.h"
+#include "lib/formats/tree.h"
+#include "tools/common/tool.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace copse::lodbake {
+
+class TreeLooks {
+ public:
+  // Images that cannot be read count as opaque; each is warned about. Keeps a reference to `tree`.
+  TreeLooks(const Tree& tree, const std::filesystem::path& file, Context& context);
+  Looks looks() const { return {tree_.materials, masks_}; }
+
+ private:
+  const Tree& tree_;
+  std::vector<AlphaMask> masks_;
+};
+
+}  // namespace copse::lodbake

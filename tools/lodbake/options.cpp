@@ -1,0 +1,135 @@
+#include "tools/lodbake/options.h"
+
+#include "tools/lodbake/run.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace copse::lodbake {
+
+ToolInfo info() {
+  return {.name = "lodbake",
+          .summary =
+              "Bakes the levels of detail of a tree: one file from which a program takes any level, from "
+              "full detail to "
+              "a handful of triangles, with its leaves, its silhouette and its structure.",
+          .examples =
+              {{"lodbake oak.stree -o oak.lod.stree --discrete 0.66,0.33,0.15 --continuous",
+                "three levels to switch between, and everything in between"},
+               {"lodbake oak.stree -o small.stree --discrete-error 0.05,0.2 --encode small --report oak.json",
+                "levels by error in metres, as few bytes as possible"}},
+          .limits = {{"levels of --discrete", k_max_discrete, "levels"}}};
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("INPUT", options.input, "a .tree or .stree file, as treeprep writes it")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("-o,--output", options.output, "the same tree with its levels")
+      ->required()
+      ->type_name("FILE");
+
+  CLI::Option_group* levels = app.add_option_group("Which levels");
+  auto* discrete = levels
+                       ->add_option("--discrete", options.discrete,
+                                    "levels with these shares of the triangles, descending")
+                       ->delimiter(',')
+                       ->type_name("R,...")
+                       ->check(CLI::Range(0.0, 1.0));
+  levels
+      ->add_option("--discrete-error", options.discrete_error,
+                   "the coarsest levels within these errors in metres, ascending")
+      ->delimiter(',')
+      ->type_name("E,...")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(discrete);
+  levels->add_flag("--continuous", options.continuous,
+                   "every level in between, as a schedule over both spectra");
+  levels->add_option("--min-triangles", options.min_triangles, "no level has fewer")
+      ->type_name("N")
+      ->capture_default_str();
+  levels->add_option("--near", options.near, "full detail up to this distance in metres")
+      ->type_name("D")
+      ->check(CLI::NonNegativeNumber);
+  levels->add_option("--medium", options.medium, "the second level begins here")
+      ->type_name("D")
+      ->check(CLI::NonNegativeNumber);
+  levels->add_option("--far", options.far, "the last level begins here")
+      ->type_name("D")
+      ->check(CLI::NonNegativeNumber);
+  levels
+      ->add_option("--hysteresis", options.hysteresis,
+                   "switching back happens this share of the distance later, percent")
+      ->type_name("P")
+      ->check(CLI::Range(0.0, 99.0))
+      ->capture_default_str();
+  levels
+      ->add_option("--max-error", options.max_error,
+                   "refuse (exit status 4) when a discrete level errs by more, metres")
+      ->type_name("E")
+      ->check(CLI::NonNegativeNumber);
+
+  CLI::Option_group* methods = app.add_option_group("How they are made");
+  methods->add_option("--trunk", options.trunk, "by radii (rings, sides, ribbons) or by edge collapses")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, TrunkMethod>{{"radii", TrunkMethod::radii}, {"edges", TrunkMethod::edges}}))
+      ->default_str("radii");
+  methods
+      ->add_option("--divide", options.division,
+                   "triangles between trunk and leaves: as the picture is best, or the same share to each")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Division>{{"picture", Division::picture}, {"even", Division::even}}))
+      ->default_str("picture");
+
+  CLI::Option_group* measuring = app.add_option_group("How wrong they are (into --report and --html)");
+  measuring->add_flag("--measure", options.measure,
+                      "area, coverage, silhouette and image error of every level");
+  measuring->add_flag("--sweep", options.sweep,
+                      "the same for every method, and for meshoptimizer at the same triangle counts");
+  measuring->add_option("--views", options.views, "directions from which is measured, at least")
+      ->check(CLI::Range(1, 642))
+      ->type_name("N")
+      ->capture_default_str();
+
+  CLI::Option_group* file = app.add_option_group("How they are stored");
+  file->add_option("--encode", options.coding.coding,
+                   "fast: exact, as it lies in memory; small: quantised and compressed")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, SpectrumCoding>{
+          {"fast", SpectrumCoding::fast}, {"small", SpectrumCoding::small}}))
+      ->default_str("fast");
+  file->add_option("--position-bits", options.coding.position_bits,
+                   "of --encode small: bits of the longest side of the box")
+      ->check(CLI::Range(8, 16))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+Result<void> check(const Options& options) {
+  const auto usage = [](std::string what, std::string remedy) {
+    return fail(Fault::usage, "", std::move(what), std::move(remedy));
+  };
+  if (options.discrete.size() > k_max_discrete || options.discrete_error.size() > k_max_discrete)
+    return usage("too many levels are named", fmt::format("name at most {}", k_max_discrete));
+  if (!std::is_sorted(options.discrete.begin(), options.discrete.end(), std::greater_equal<>()))
+    return usage("--discrete: the shares do not fall", "name them in descending order, each once");
+  if (!std::is_sorted(options.discrete_error.begin(), options.discrete_error.end(), std::less_equal<>()))
+    return usage("--discrete-error: the errors do not grow", "name them in ascending order, each once");
+  const double h = options.hysteresis / 100;
+  const std::optional<double> borders[] = {options.near, options.medium, options.far};
+  double before = -1;
+  for (const auto& border : borders) {
+    if (!border) continue;
+    // Two bands that overlap would leave no place where the level between them is drawn (digest 003, H-10).
+    if (before >= 0 && before * (1 + h) >= *border * (1 - h))
+      return usage("--near, --medium and --far are too close to one another, or out of order",
+                   "let each be farther than the one before by more than both bands of --hysteresis");
+    before = *border;
+  }
+  return {};
+}
+
+}  // namespace copse::lodbake

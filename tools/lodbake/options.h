@@ -1,0 +1,41 @@
+// The command line of lodbake.
+#pragma once
+
+#include "lib/formats/result.h"
+#include "lib/formats/spectrum_file.h"
+#include "tools/common/tool.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace copse::lodbake {
+
+enum class TrunkMethod { radii, edges };
+enum class FoliageMethod { collapse, prune };
+enum class Division { picture, even };
+
+struct Options {
+  std::filesystem::path input, output;
+  std::vector<double> discrete;        // shares of the triangles, descending
+  std::vector<double> discrete_error;  // metres, ascending
+  std::optional<double> near, medium, far;
+  bool continuous = false;
+  std::uint64_t min_triangles = 0;
+  double hysteresis = 10;  // percent
+  TrunkMethod trunk = TrunkMethod::radii;
+  FoliageMethod foliage = FoliageMethod::collapse;
+  Division division = Division::picture;
+  SpectrumCodingOptions coding;
+  std::optional<double> max_error;  // metres
+  int views = 42;                   // of --measure and --sweep
+  bool measure = false, sweep = false;
+};
+
+ToolInfo info();
+void add_options(CLI::App& app, Options& options);
+// What CLI11 cannot say: order of the levels, of the distances, what excludes what.
+Result<void> check(const Options& options);
+
+}  // namespace copse::lodbake

@@ -1,0 +1,132 @@
+#include "tools/lodbake/run.h"
+
+#include "lib/analysis/lod/floating_leaves.h"
+#include "lib/formats/spectrum_file.h"
+#include "lib/formats/tree_file.h"
+#include "tools/lodbake/level_pictures.h"
+#include "tools/lodbake/levels.h"
+#include "tools/lodbake/looks.h"
+#include "tools/lodbake/measure_stage.h"
+#include "tools/lodbake/spectra.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace copse::lodbake {
+namespace {
+
+Result<void> check_output(const Options& options, const TreeFile& file) {
+  const std::string extension = options.output.extension().string();
+  const std::string wanted = file.header().kind == TreeKind::still ? ".tree" : ".stree";
+  if (extension == wanted) return {};
+  return fail(Fault::usage, options.output.string(), "the output is of the input's kind",
+              "name it " + wanted);
+}
+
+std::string number(double value) {
+  return fmt::format("{:.4g}", value);
+}
+
+std::vector<LodLevel> with_full_detail(const LodSpectra& spectra) {
+  std::vector<LodLevel> levels{spectra.schedule.empty() ? LodLevel{} : spectra.schedule.front()};
+  levels.insert(levels.end(), spectra.discrete.begin(), spectra.discrete.end());
+  return levels;
+}
+
+std::vector<std::string> labels(const std::vector<LodLevel>& levels) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    out.push_back(fmt::format("{}: {} triangles ({:.3g} %)", i, levels[i].triangles,
+                              100.0 * levels[i].triangles / std::max(1u, levels[0].triangles)));
+  return out;
+}
+
+void report_levels(const Tree& tree, const LodSpectra& spectra, Report& report) {
+  const FloatingLeaves floating(tree, spectra);
+  Table table{.name = "levels",
+              .columns = {"Level", "Triangles", "Share", "Trunk", "Leaves", "Error (m)", "From (m)",
+                          "Floating leaves"},
+              .rows = {}};
+  const double full = spectra.schedule.empty() ? 0 : spectra.schedule.front().triangles;
+  const std::vector<LodLevel> levels = with_full_detail(spectra);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const LodLevel& l = levels[i];
+    const auto part = [](const Spectrum& s, std::uint32_t steps) {
+      return s.counts.empty() ? 0 : s.counts[steps];
+    };
+    table.rows.push_back({fmt::format("{}", i), fmt::format("{}", l.triangles),
+                          number(full > 0 ? l.triangles / full : 1),
+                          fmt::format("{}", part(spectra.trunk, l.trunk_steps)),
+                          fmt::format("{}", part(spectra.leaves, l.leaf_steps)), number(l.error),
+                          number(i == 0 ? 0 : l.distance), fmt::format("{}", floating.count(l))});
+  }
+  report.tables.push_back(std::move(table));
+  Curve curve{.name = "error bound", .x = "triangles", .y = "metres", .points = {}};
+  for (const LodLevel& l : spectra.schedule)
+    curve.points.push_back(
+        {.label = fmt::format("{}", l.triangles), .x = static_cast<double>(l.triangles), .y = l.error});
+  report.curves.push_back(std::move(curve));
+}
+
+Result<void> check_errors(const Options& options, const LodSpectra& spectra) {
+  if (!options.max_error) return {};
+  for (std::size_t i = 0; i < spectra.discrete.size(); ++i) {
+    const LodLevel& level = spectra.discrete[i];
+    if (level.error <= *options.max_error) continue;
+    return fail(Fault::limit, options.input.string(),
+                fmt::format("level {} ({} triangles) errs by up to {:.4g} m, --max-error allows {:.4g}",
+                            i + 1, level.triangles, level.error, *options.max_error),
+                "ask for more triangles, or allow more error");
+  }
+  return {};
+}
+
+Result<void> write(const Options& options, const TreeFile& file, const LodSpectra& spectra,
+                   Context& context) {
+  Stage stage = context.stage("write");
+  ContainerWriter writer(file.container());
+  const auto errors = put_spectra(writer, spectra, options.coding);
+  if (!errors) return std::unexpected(errors.error());
+  const auto bytes = writer.finish();
+  if (!bytes) return std::unexpected(bytes.error());
+  stage.items(bytes->size(), "bytes");
+  if (options.coding.coding == SpectrumCoding::small) {
+    const auto tell = [&](const char* name, double error) {
+      context.report().errors.push_back({name, error, "m", error, {}, {}, "the spectrum before coding"});
+    };
+    tell("quantisation of the trunk, largest", errors->trunk);
+    tell("quantisation of the leaves, largest", errors->leaves);
+  }
+  return context.write(options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+}
+
+}  // namespace
+
+Result<void> run(const Options& options, Context& context) {
+  if (auto right = check(options); !right) return right;
+  if (auto writable = context.check_output(options.output); !writable) return writable;
+  context.read(options.input, true);
+  auto file = TreeFile::open(options.input);
+  if (!file) return std::unexpected(file.error());
+  if (auto right = check_output(options, *file); !right) return right;
+  auto tree = file->load();
+  if (!tree) return std::unexpected(tree.error());
+  const TreeLooks looks(*tree, options.input, context);
+  auto spectra = make_spectra(*tree, looks.looks(), options, context);
+  if (!spectra) return std::unexpected(spectra.error());
+  choose_levels(options, tree->header.bounds.extent().y, *spectra);
+  report_levels(*tree, *spectra, context.report());
+  const std::vector<LodLevel> levels = with_full_detail(*spectra);
+  if (options.measure) measure_levels(*spectra, looks.looks(), levels, options, context);
+  if (options.sweep) sweep(*tree, *spectra, looks.looks(), options, context);
+  if (!context.options().html.empty()) {
+    auto strip = level_strip(*spectra, looks.looks(), levels, labels(levels));
+    if (!strip) return std::unexpected(strip.error());
+    context.report().pictures.push_back(std::move(*strip));
+  }
+  if (auto within = check_errors(options, *spectra); !within) return within;
+  return write(options, *file, *spectra, context);
+}
+
+}  // namespace copse::lodbake

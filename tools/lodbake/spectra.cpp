@@ -1,0 +1,61 @@
+#include "tools/lodbake/spectra.h"
+
+#include "lib/analysis/lod/coupling.h"
+#include "lib/analysis/lod/edge_collapse.h"
+#include "lib/analysis/lod/floating_leaves.h"
+#include "lib/analysis/lod/leaf_collapse.h"
+#include "lib/analysis/lod/trunk_radii.h"
+#include "tools/lodbake/level_pictures.h"
+
+#include <optional>
+
+namespace copse::lodbake {
+namespace {
+
+// By edges, every triangle hangs on the child radius of its segment.
+Spectrum trunk_by_edges(const Tree& tree, const Options& options) {
+  const PartTriangles trunk = trunk_triangles(tree);
+  std::vector<std::uint32_t> radius(trunk.triangles.size(), k_none);
+  const bool hierarchy = tree.radius_count() > 0 && !tree.trunk.lines.empty();
+  for (std::size_t s = 0; hierarchy && s < tree.segment_count(); ++s) {
+    for (std::size_t t = tree.first_triangle_of_segment(s); t < tree.first_triangle_of_segment(s + 1); ++t)
+      radius[t] = tree.trunk.lines[s][1];
+  }
+  return edge_spectrum(trunk, collapse_edges(trunk, {.min_triangles = options.min_triangles}), radius);
+}
+
+Spectrum trunk_spectrum(const Tree& tree, const Options& options, Context& context) {
+  Stage stage = context.stage("trunk");
+  stage.items(tree.trunk.triangles.size(), "triangles");
+  return options.trunk == TrunkMethod::edges ? trunk_by_edges(tree, options) : trunk_by_radii(tree);
+}
+
+Spectrum leaf_spectrum(const Tree& tree, Context& context) {
+  Stage stage = context.stage("leaves");
+  stage.items(tree.leaves.triangles.size(), "triangles");
+  return collapse_spectrum(tree, {});
+}
+
+}  // namespace
+
+Result<LodSpectra> make_spectra(const Tree& tree, const Looks& looks, const Options& options,
+                                Context& context) {
+  LodSpectra spectra;
+  spectra.trunk = trunk_spectrum(tree, options, context);
+  spectra.leaves = leaf_spectrum(tree, context);
+  Stage stage = context.stage("divide");
+  const bool both = !spectra.trunk.elements.empty() && !spectra.leaves.elements.empty();
+  LevelError error;
+  std::optional<LevelPictures> pictures;
+  if (both && options.division == Division::picture) {
+    pictures.emplace(spectra, looks);
+    error = [&](const LodLevel& level) { return pictures->error(level); };
+  }
+  const FloatingLeaves floating(tree, spectra);
+  spectra.schedule = couple(spectra, error, [&](const LodLevel& level) { return floating.count(level); },
+                            {.min_triangles = options.min_triangles});
+  stage.items(spectra.schedule.size(), "knots");
+  return spectra;
+}
+
+}  // namespace copse::lodbake

@@ -1,0 +1,101 @@
+#include "lib/analysis/lod/coupling.h"
+#include "lib/analysis/lod/edge_collapse.h"
+#include "lib/analysis/measure/lod_quality.h"
+#include "lib/runtime/levels.h"
+#include "tools/lodbake/level_pictures.h"
+#include "tools/lodbake/measure_stage.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <meshoptimizer.h>
+
+namespace copse::lodbake {
+namespace {
+
+constexpr double k_shares[] = {0.5, 0.25, 0.1, 0.05, 0.02};
+
+// meshoptimizer's simplifier, its error limit off, as its users call it on an indexed mesh.
+DrawnMesh simplified(const DrawnMesh& mesh, std::uint64_t triangles) {
+  if (mesh.triangles.empty()) return mesh;
+  std::vector<Float3> positions;
+  for (const Double3& p : mesh.positions) positions.push_back(to_float(p));
+  std::vector<unsigned> indices(3 * mesh.triangles.size());
+  float error = 0;
+  indices.resize(meshopt_simplify(indices.data(), reinterpret_cast<const unsigned*>(mesh.triangles.data()),
+                                  indices.size(), &positions[0].x, positions.size(), sizeof(Float3),
+                                  3 * triangles, 1e9f, 0, &error));
+  DrawnMesh out = mesh;
+  out.triangles.clear(), out.material.clear();
+  for (std::size_t i = 0; i < indices.size(); i += 3) {
+    out.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    out.material.push_back(mesh.material.empty() ? k_none : mesh.material[0]);
+  }
+  return out;
+}
+
+// Material by material, as an engine draws them: the simplifier knows none. `whole`: one target for all
+// together, so that it takes where it costs least; otherwise the same share of each.
+DrawnMesh peer(const LodSpectra& spectra, std::uint64_t target, bool whole) {
+  const DrawnMesh trunk = drawn_state(spectra.trunk, 0), leaves = drawn_state(spectra.leaves, 0);
+  if (whole) {
+    DrawnMesh all = trunk;
+    append(all, leaves);
+    const auto trunk_vertices = static_cast<std::uint32_t>(trunk.positions.size());
+    DrawnMesh out = simplified(all, target);
+    const std::uint32_t bark = trunk.material.empty() ? k_none : trunk.material[0],
+                        leaf = leaves.material.empty() ? k_none : leaves.material[0];
+    for (std::size_t t = 0; t < out.triangles.size(); ++t)
+      out.material[t] = out.triangles[t][0] < trunk_vertices ? bark : leaf;
+    return out;
+  }
+  const double share =
+      static_cast<double>(target) / static_cast<double>(trunk.triangles.size() + leaves.triangles.size());
+  const auto part = [&](const DrawnMesh& mesh) {
+    return simplified(
+        mesh, static_cast<std::uint64_t>(std::floor(share * static_cast<double>(mesh.triangles.size()))));
+  };
+  DrawnMesh out = part(trunk);
+  append(out, part(leaves));
+  return out;
+}
+
+}  // namespace
+
+void sweep(const Tree& tree, const LodSpectra& spectra, const Looks& looks, const Options& options,
+           Context& context) {
+  Stage stage = context.stage("sweep");
+  const DrawnMesh source = drawn_level(spectra, {});
+  const double full = static_cast<double>(source.triangles.size());
+  LodSpectra even = spectra, edges = spectra;
+  even.schedule = couple(spectra, nullptr, nullptr);
+  const PartTriangles trunk = trunk_triangles(tree);
+  edges.trunk = edge_spectrum(trunk, collapse_edges(trunk), {});
+  edges.schedule = couple(edges, nullptr, nullptr);
+  Table table{.name = "sweep",
+              .columns = {"Method", "Share", "Triangles", "Area", "Coverage", "Silhouette IoU", "RMSE",
+                          "SSIM", "Hull growth", "Pixels"},
+              .rows = {}};
+  for (const double share : k_shares) {
+    const int pixels = share >= 0.25 ? 512 : share >= 0.05 ? 128 : 32;
+    const LodJudge judge(source, looks, {.views = options.views, .image_size = pixels, .mask_size = 256});
+    const auto target = static_cast<std::uint64_t>(std::floor(share * full));
+    const auto add = [&](const char* method, const DrawnMesh& level) {
+      const LodQuality q = judge.measure(level);
+      table.rows.push_back({method, fmt::format("{}", share), fmt::format("{}", q.triangles),
+                            fmt::format("{:.3f}", q.area_ratio), fmt::format("{:.3f}", q.coverage_ratio),
+                            fmt::format("{:.3f}", q.iou), fmt::format("{:.4f}", q.rmse),
+                            fmt::format("{:.3f}", q.ssim), fmt::format("{:.3f}", q.hull_growth),
+                            fmt::format("{}", pixels)});
+    };
+    add("copse", drawn_level(spectra, level_of_triangles(spectra, target)));
+    add("copse, even", drawn_level(even, level_of_triangles(even, target)));
+    add("copse, trunk by edges", drawn_level(edges, level_of_triangles(edges, target)));
+    add("meshoptimizer, one mesh", peer(spectra, target, true));
+    add("meshoptimizer, each part", peer(spectra, target, false));
+  }
+  stage.items(table.rows.size(), "levels");
+  context.report().tables.push_back(std::move(table));
+}
+
+}  // namespace copse::lodbake
