@@ -25,6 +25,9 @@ while read -r name arguments; do
   "$bin/treedump" "$out/$name.stree" --hierarchy >"$out/$name.hierarchy.json"
   "$bin/treedump" "$out/$name.stree" >"$out/$name.txt"
   step treedump "verified; $out/$name.txt"
+  "$bin/lodbake" "$out/$name.stree" -o "$out/$name.lod.stree" --discrete 0.5,0.25,0.1,0.02 --html "$out/$name.lod.html" -q
+  "$bin/treedump" "$out/$name.lod.stree" --export "$out/$name.lod.glb" -q
+  step lodbake "$out/$name.lod.stree, $out/$name.lod.html, $out/$name.lod.glb"
   "$bin/treeplay" "$out/$name.stree" --headless --size 640x720 --frames "$out/$name.png" --report "$out/$name.play.json" -q
   "$bin/treeplay" "$out/$name.stree" --headless --size 640x720 --show skeleton --frames "$out/$name.skeleton.png" -q
   step treeplay "$out/$name.png, $out/$name.skeleton.png"

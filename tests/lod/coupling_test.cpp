@@ -65,7 +65,7 @@ TEST(Coupling, TakesFromThePartThatThePictureMissesLess) {
   const auto knots = couple(s, error, nullptr);
   expect_schedule(s, knots);
   const auto half =
-      std::find_if(knots.begin(), knots.end(), [](const LodLevel& l) { return l.triangles <= 1100; });
+      std::find_if(knots.begin(), knots.end(), [](const LodLevel& l) { return l.triangles <= 1200; });
   ASSERT_NE(half, knots.end());
   EXPECT_EQ(s.trunk.counts[half->trunk_steps], 1000u);
 }

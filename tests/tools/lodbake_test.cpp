@@ -105,6 +105,21 @@ TEST_F(Lodbake, TheReportHasAreaCoverageAndImageErrorOfEveryLevel) {
   EXPECT_NE(read_text(folder_.path() / "r.html").find("data:image/png;base64"), std::string::npos);
 }
 
+TEST_F(Lodbake, AGlbCarriesEveryLevelAndShowsTheFirst) {
+  ASSERT_EQ(bake({"--discrete", "0.5,0.2"}).status, 0);
+  EXPECT_EQ(triangles({}, "all.glb"), 8u * 2 * 11 + 60);  // what the scene shows is full detail
+  const std::string text = read_text(folder_.path() / "all.glb");
+  const auto begin = text.find('{'), end = text.find("BIN");
+  const auto json = nlohmann::json::parse(text.substr(begin, text.rfind('}', end) - begin + 1));
+  EXPECT_EQ(json["extensionsUsed"][0], "MSFT_lod");
+  const std::size_t root = json["scenes"][0]["nodes"][0];
+  const auto ids = json["nodes"][root]["extensions"]["MSFT_lod"]["ids"];
+  ASSERT_EQ(ids.size(), 2u);
+  for (const std::size_t id : ids) EXPECT_TRUE(json["nodes"][id].contains("children"));
+  EXPECT_EQ(json["nodes"][root]["extras"]["MSFT_screencoverage"].size(), 3u);
+  EXPECT_LT(triangles({"--level", "1"}, "one.glb"), 8u * 2 * 11 + 60);
+}
+
 TEST_F(Lodbake, ALevelThatErrsTooMuchIsNotWritten) {
   const Outcome o = bake({"--discrete", "0.02", "--max-error", "0.0001"});
   EXPECT_EQ(o.status, 4);

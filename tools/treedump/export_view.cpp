@@ -3,7 +3,9 @@
 #include "lib/runtime/levels.h"
 #include "tools/treedump/views.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -64,16 +66,56 @@ Mesh mesh_at(const Tree& tree, const LodSpectra& spectra, const LodLevel& level)
   return mesh;
 }
 
-Result<Mesh> wanted_mesh(const TreeFile& file, const Tree& tree, const DumpOptions& options) {
+// A mesh, and for a GLB that holds several levels which part belongs to which.
+struct Wanted {
+  Mesh mesh;
+  std::vector<std::uint32_t> level_of_part;
+  std::vector<double> screen_coverage;
+};
+
+// Full detail and every discrete level in one mesh: level 0 in the scene, the others behind MSFT_lod.
+Wanted all_levels(const Tree& tree, const LodSpectra& spectra) {
+  Wanted out{.mesh = mesh_at(tree, spectra, {}), .level_of_part = {}, .screen_coverage = {}};
+  out.level_of_part.assign(out.mesh.parts.size(), 0);
+  // The share of the screen's height that the tree takes up where the next level takes over, seen at 60
+  // degrees.
+  const double height = tree.header.bounds.extent().y, reach = 2 * std::tan(std::numbers::pi / 6);
+  std::uint32_t number = 0;
+  for (const LodLevel& level : spectra.discrete) {
+    if (level.triangles == 0) continue;  // glTF has no mesh of nothing
+    append_state(out.mesh, spectra.trunk, level.trunk_steps, "trunk", tree.header.origin);
+    append_state(out.mesh, spectra.leaves, level.leaf_steps, "leaves", tree.header.origin);
+    out.level_of_part.resize(out.mesh.parts.size(), ++number);
+    out.screen_coverage.push_back(level.distance > 0 ? std::min(1.0, height / (reach * level.distance))
+                                                     : 1.0);
+  }
+  out.screen_coverage.push_back(0);
+  for (const Part& part : out.mesh.parts) {
+    if (part.object == "trunk" && part.material < out.mesh.materials.size())
+      out.mesh.materials[part.material].double_sided = true;
+  }
+  return out;
+}
+
+Result<Wanted> wanted_mesh(const TreeFile& file, const Tree& tree, const DumpOptions& options,
+                           ExportFormat format) {
   const bool levels = has_spectra(file.container());
-  if (!levels && is_full_detail(options)) return to_mesh(tree);
+  if (!levels && is_full_detail(options))
+    return Wanted{.mesh = to_mesh(tree), .level_of_part = {}, .screen_coverage = {}};
   if (!levels) return no_level(options, "holds no levels of detail");
   const auto spectra = load_spectra(file.container(), tree.radius_count(), tree.materials.size());
   if (!spectra) return std::unexpected(spectra.error());
-  if (is_full_detail(options)) return mesh_at(tree, *spectra, {});
-  const auto level = chosen_level(options, *spectra);
-  if (!level) return std::unexpected(level.error());
-  return mesh_at(tree, *spectra, *level);
+  const bool names_one = options.level || options.ratio || options.max_error;
+  const bool both = !spectra->trunk.elements.empty() || !spectra->leaves.elements.empty();
+  if (!names_one && both && !spectra->discrete.empty() && format == ExportFormat::glb)
+    return all_levels(tree, *spectra);
+  LodLevel level;
+  if (!is_full_detail(options)) {
+    const auto chosen = chosen_level(options, *spectra);
+    if (!chosen) return std::unexpected(chosen.error());
+    level = *chosen;
+  }
+  return Wanted{.mesh = mesh_at(tree, *spectra, level), .level_of_part = {}, .screen_coverage = {}};
 }
 
 }  // namespace
@@ -83,12 +125,15 @@ Result<std::vector<ExportedFile>> export_tree(const TreeFile& file, const DumpOp
   if (!format) return std::unexpected(format.error());
   auto tree = file.load();
   if (!tree) return std::unexpected(tree.error());
-  auto mesh = wanted_mesh(file, *tree, options);
-  if (!mesh) return std::unexpected(mesh.error());
-  for (Texture& texture : mesh->textures)
+  auto wanted = wanted_mesh(file, *tree, options, *format);
+  if (!wanted) return std::unexpected(wanted.error());
+  for (Texture& texture : wanted->mesh.textures)
     texture.uri = moved_uri(texture.uri, options.files.front(), options.export_to);
   *tree = {};
-  return export_mesh(*mesh, *format, options.export_to.filename().string(), {.draco = options.draco});
+  return export_mesh(wanted->mesh, *format, options.export_to.filename().string(),
+                     {.draco = options.draco,
+                      .level_of_part = std::move(wanted->level_of_part),
+                      .screen_coverage = std::move(wanted->screen_coverage)});
 }
 
 }  // namespace copse

@@ -19,7 +19,10 @@ class Coupler {
   LodLevel next(const LodLevel& from, std::uint64_t target) {
     LodLevel best = from;
     double least = std::numeric_limits<double>::infinity();
-    if (!error_) return even(from, target);
+    if (!error_) {
+      const LodLevel level = even(from, target);
+      return floats_ && floats_(level) > 0 ? leaves_alone(from, target) : level;
+    }
     std::vector<LodLevel> tried;
     const std::uint64_t trunk = count(spectra_.trunk, from.trunk_steps);
     const auto consider = [&](std::uint64_t trunk_triangles) {
@@ -34,17 +37,20 @@ class Coupler {
       consider(static_cast<std::uint64_t>(std::floor(portion * static_cast<double>(trunk))));
     const std::uint64_t leaves = count(spectra_.leaves, from.leaf_steps);
     if (leaves <= target) consider(target - leaves);
-    // Nothing fits: the leaves alone give, however many that takes; at last both.
-    if (!std::isfinite(least)) {
-      const LodLevel level = level_at(
-          spectra_, from.trunk_steps,
-          std::max(from.leaf_steps, step_with(spectra_.leaves, target > trunk ? target - trunk : 0)));
-      best = level.triangles < from.triangles ? level : even(from, target);
-    }
-    return best;
+    consider(count(spectra_.trunk, even(from, target).trunk_steps));
+    // Nothing fits, or everything floats: the leaves alone give, and only at last both.
+    return std::isfinite(least) ? best : leaves_alone(from, target);
   }
 
  private:
+  LodLevel leaves_alone(const LodLevel& from, std::uint64_t target) const {
+    const std::uint64_t trunk = count(spectra_.trunk, from.trunk_steps);
+    const LodLevel level =
+        level_at(spectra_, from.trunk_steps,
+                 std::max(from.leaf_steps, step_with(spectra_.leaves, target > trunk ? target - trunk : 0)));
+    return level.triangles < from.triangles ? level : even(from, target);
+  }
+
   static std::uint64_t count(const Spectrum& s, std::uint32_t steps) {
     return s.counts.empty() ? 0 : s.counts[steps];
   }

@@ -19,10 +19,11 @@ using LevelFloats = std::function<std::uint64_t(const LodLevel&)>;
 
 // The schedule of `spectra`: the first knot is full detail; each next one has at most knot_ratio of the
 // triangles, taken from trunk and leaves so that `error` is least among the divisions that are tried (the
-// trunk gives up nothing, or some of what it has in several portions, or the leaves give up nothing) and
-// nothing floats. The last knot is the coarsest state of both, or the last one with min_triangles or more.
-// Without `error` both parts keep the same share. Deterministic. Calls `error` some 7 times a knot; knots:
-// log(triangles) / log(1 / knot_ratio).
+// trunk gives up nothing, or some of what it has in several portions, the leaves give up nothing, both keep
+// the same share) and nothing floats. The last knot is the coarsest state of both, or the last one with
+// min_triangles or more. Without `error` both parts keep the same share as long as nothing floats; where
+// every division makes leaves float the leaves alone give. Deterministic. Calls `error` some 8 times a knot;
+// knots: log(triangles) / log(1 / knot_ratio).
 std::vector<LodLevel> couple(const LodSpectra& spectra, const LevelError& error, const LevelFloats& floats,
                              const CouplingOptions& options = {});
 

@@ -18,6 +18,11 @@ struct ExportOptions {
   // primitive's box (1 to 30), normals to 10 bits, texture coordinates to 12.
   bool draco = false;
   int draco_position_bits = 14;
+  // GLB only: the level of detail of each part of the mesh, 0 the finest; empty: there is one. Levels become
+  // nodes that stand for one another (MSFT_lod): the scene holds level 0 alone. `screen_coverage`: for every
+  // level the share of the screen's height above which it is drawn (MSFT_screencoverage), or empty.
+  std::vector<std::uint32_t> level_of_part = {};
+  std::vector<double> screen_coverage = {};
 };
 
 struct ExportedFile {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -47,8 +48,8 @@ std::string encoded_uri(const std::string& path) {
 
 class GlbWriter {
  public:
-  GlbWriter(const Mesh& mesh, const std::string& name, GlbGeometry geometry)
-      : mesh_(mesh), name_(name), geometry_(std::move(geometry)) {}
+  GlbWriter(const Mesh& mesh, const std::string& name, GlbGeometry geometry, const ExportOptions& options)
+      : mesh_(mesh), name_(name), geometry_(std::move(geometry)), options_(options) {}
 
   std::vector<ExportedFile> write() {
     root_["asset"] = {{"version", "2.0"}, {"generator", fmt::format("copse {}", COPSE_VERSION)}};
@@ -65,12 +66,16 @@ class GlbWriter {
 
  private:
   void add_meshes() {
-    std::map<std::pair<std::string, std::string>, std::size_t> index;
+    std::map<std::tuple<std::uint32_t, std::string, std::string>, std::size_t> index;
     Json meshes = Json::array(), nodes = Json::array();
+    std::vector<std::uint32_t> level_of_node;
     for (const Primitive& primitive : geometry_.primitives) {
       const Part part = mesh_.parts.empty() ? Part{} : mesh_.parts[primitive.part];
-      const auto [at, is_new] = index.try_emplace({part.object, part.group}, meshes.size());
+      const std::uint32_t level =
+          primitive.part < options_.level_of_part.size() ? options_.level_of_part[primitive.part] : 0;
+      const auto [at, is_new] = index.try_emplace({level, part.object, part.group}, meshes.size());
       if (is_new) {
+        level_of_node.push_back(level);
         meshes.push_back(
             {{"name", part.group.empty() ? part.object : part.group}, {"primitives", Json::array()}});
         nodes.push_back({{"name", part.object}, {"mesh", at->second}});
@@ -81,13 +86,37 @@ class GlbWriter {
     Json roots = Json::array();
     for (std::size_t n = 0; n < nodes.size(); ++n) roots.push_back(n);
     const Double3& t = geometry_.translation;
-    if (t != Double3{}) {
+    if (!options_.level_of_part.empty()) {
+      roots = add_levels(nodes, level_of_node);
+    } else if (t != Double3{}) {
       nodes.push_back({{"name", "origin"}, {"translation", {t.x, t.y, t.z}}, {"children", std::move(roots)}});
       roots = Json::array({nodes.size() - 1});
     }
     root_["scenes"][0]["nodes"] = std::move(roots);
     root_["nodes"] = std::move(nodes);
     root_["meshes"] = std::move(meshes);
+  }
+
+  // One node a level over the nodes of its meshes; the first names the others, which are in no scene.
+  Json add_levels(Json& nodes, const std::vector<std::uint32_t>& level_of_node) {
+    std::map<std::uint32_t, Json> children;
+    for (std::size_t n = 0; n < level_of_node.size(); ++n) children[level_of_node[n]].push_back(n);
+    const std::size_t first = nodes.size();
+    const Double3& t = geometry_.translation;
+    Json others = Json::array();
+    for (auto& [level, below] : children) {
+      if (nodes.size() > first) others.push_back(nodes.size());
+      Json node = {{"name", fmt::format("level {}", level)}, {"children", std::move(below)}};
+      if (t != Double3{}) node["translation"] = {t.x, t.y, t.z};
+      nodes.push_back(std::move(node));
+    }
+    if (!others.empty()) {
+      nodes[first]["extensions"]["MSFT_lod"]["ids"] = std::move(others);
+      if (!options_.screen_coverage.empty())
+        nodes[first]["extras"]["MSFT_screencoverage"] = options_.screen_coverage;
+      use_extension("MSFT_lod", false);
+    }
+    return Json::array({first});
   }
 
   Json primitive_json(const Primitive& primitive, const Part& part) {
@@ -235,6 +264,7 @@ class GlbWriter {
   const Mesh& mesh_;
   const std::string& name_;
   GlbGeometry geometry_;
+  const ExportOptions& options_;
   Json root_;
   std::vector<ExportedFile> files_;
   Json materials_ = Json::array(), textures_ = Json::array(), images_ = Json::array();
@@ -249,7 +279,7 @@ Result<std::vector<ExportedFile>> export_glb(const Mesh& mesh, const std::string
                                              const ExportOptions& options) {
   auto geometry = glb_geometry(mesh, name, options);
   if (!geometry) return std::unexpected(std::move(geometry.error()));
-  return GlbWriter(mesh, name, std::move(*geometry)).write();
+  return GlbWriter(mesh, name, std::move(*geometry), options).write();
 }
 
 }  // namespace copse

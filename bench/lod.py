@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Levels of detail of the trees at ../shared/trees (and of treegrow's species) beside meshoptimizer: image error, area,
+coverage, silhouette at the same triangle counts; speed of every stage; bytes.
+
+./run bench lod               every tree
+python3 bench/lod.py NAME...  the trees whose names begin so (the tools must be in PATH)
+"""
+import json
+import math
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+TREES = pathlib.Path(__file__).resolve().parent.parent.parent / "shared" / "trees"
+SPECIES = ["oak", "birch", "willow", "spruce"]
+
+
+def run(*command):
+    subprocess.run([str(c) for c in command], check=True)
+
+
+def table(report, name):
+    for t in report["tables"]:
+        if t["name"] == name:
+            return [dict(zip(t["columns"], row)) for row in t["rows"]]
+    return []
+
+
+def bake(mesh, folder):
+    tree, levels, page = folder / "tree.stree", folder / "lod.stree", folder / "report.json"
+    run("treeprep", mesh, "-o", tree, "-q")
+    run("lodbake", tree, "-o", levels, "--discrete", "0.66,0.33,0.15", "--sweep", "--views", 12, "--report", page, "-q")
+    report = json.loads(page.read_text())
+    small = folder / "small.stree"
+    run("lodbake", tree, "-o", small, "--discrete", "0.5", "--divide", "even", "--encode", "small", "-q")
+    return report, levels.stat().st_size - tree.stat().st_size, small.stat().st_size - tree.stat().st_size
+
+
+def show(name, mesh, folder, ratios):
+    report, fast, small = bake(mesh, folder)
+    speed = {s["name"]: s["items"] / s["seconds"] / 1e6 for s in report["stages"] if s["name"] in ("trunk", "leaves") and s["seconds"] > 0}
+    print(f"\n{name}: trunk {speed.get('trunk', 0):.2f}, leaves {speed.get('leaves', 0):.2f} Mtri/s; spectra {fast} bytes fast, {small} small")
+    rows = table(report, "sweep")
+    best = {}
+    for r in rows:
+        print(f"  {r['Share']:>5s} {r['Method']:28s} {r['Triangles']:>8s} area {r['Area']:>6s} coverage {r['Coverage']:>6s} "
+              f"IoU {r['Silhouette IoU']:>6s} RMSE {r['RMSE']:>7s} SSIM {r['SSIM']:>6s} hull {r['Hull growth']:>6s}")
+        key = "ours" if r["Method"] == "copse" else "peer" if r["Method"].startswith("meshopt") else None
+        if key:
+            at = best.setdefault(r["Share"], {})
+            at[key] = min(at.get(key, math.inf), float(r["RMSE"]))
+    for share, b in best.items():
+        if b.get("ours", 0) > 0:
+            ratios.setdefault(share, []).append(b["peer"] / b["ours"])
+
+
+def main():
+    wanted = sys.argv[1:]
+    ratios = {}
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        meshes = sorted(p for p in TREES.iterdir() if p.name.endswith((".obj", ".obj.gz"))) if TREES.exists() else []
+        for species in SPECIES:
+            grown = folder / f"grown_{species}.obj"
+            if not wanted or any(grown.name.startswith(w) for w in wanted):
+                run("treegrow", species, "-o", grown, "-q")
+                meshes.append(grown)
+        for mesh in meshes:
+            if not wanted or any(mesh.name.startswith(w) for w in wanted):
+                show(mesh.name, mesh, folder, ratios)
+    print("\nRMSE of the better meshoptimizer / RMSE of copse, at the same triangle count asked for")
+    for share, r in ratios.items():
+        print(f"  {share:>5s}: median {statistics.median(r):.2f}, least {min(r):.2f}, better on {sum(x > 1 for x in r)} of {len(r)}")
+
+
+if __name__ == "__main__":
+    main()
