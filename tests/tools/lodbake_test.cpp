@@ -157,6 +157,22 @@ TEST_F(Lodbake, ADamagedSpectrumIsRefused) {
   EXPECT_NE(o.err.find("LSTR"), std::string::npos) << o.err;
 }
 
+TEST_F(Lodbake, PrunedFoliageComesWithItsCells) {
+  ASSERT_EQ(bake({"--foliage", "prune", "--cells", "8", "--views", "12", "--discrete", "0.3"}).status, 0);
+  const auto file = TreeFile::open(out_);
+  ASSERT_TRUE(file.has_value());
+  for (const char* section : {"FCEL", "FORD", "FVIS", "FPAR"}) EXPECT_TRUE(file->has(section)) << section;
+  EXPECT_LE(triangles({"--level", "1"}), (8u * 2 * 11 + 60) * 3 / 10);
+}
+
+TEST_F(Lodbake, LinesAndPointsNeedTheirSections) {
+  EXPECT_EQ(bake({"--lines-points"}).status, 0);
+  ASSERT_EQ(run_process({"treeprep", folder_.file("oak.obj"), "-o", tree_, "-q", "--omit", "TACC"}).status, 0);
+  const Outcome o = bake({"--lines-points"});
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.err.find("TACC"), std::string::npos) << o.err;
+}
+
 TEST_F(Lodbake, ByEdgesItWorksToo) {
   ASSERT_EQ(bake({"--trunk", "edges", "--discrete", "0.5", "--divide", "even"}).status, 0);
   EXPECT_LE(triangles({"--level", "1"}), (8u * 2 * 11 + 60) / 2);

@@ -1,6 +1,7 @@
 #include "tools/lodbake/measure_stage.h"
 
 #include "lib/analysis/measure/lod_quality.h"
+#include "lib/analysis/measure/surface_distance.h"
 #include "lib/runtime/levels.h"
 #include "tools/lodbake/level_pictures.h"
 
@@ -93,14 +94,19 @@ void measure_levels(const LodSpectra& spectra, const Looks& looks, const std::ve
   const LevelExtractor trunk(spectra.trunk), leaves(spectra.leaves);
   std::vector<std::uint32_t> buffer(std::max(trunk.capacity(), leaves.capacity()));
   Table table{.name = "quality", .columns = quality_columns(), .rows = {}};
-  table.columns.push_back("Extraction (us)");
+  table.columns.insert(table.columns.end(),
+                       {"Level to source (m)", "Source to level (m)", "Extraction (us)"});
   Curve rmse{.name = "image error", .x = "triangles", .y = "RMSE", .points = {}},
       coverage{.name = "coverage", .x = "triangles", .y = "of full detail", .points = {}};
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const LodQuality q = judges.measure(drawn_level(spectra, levels[i]));
+    const DrawnMesh drawn = drawn_level(spectra, levels[i]);
+    const LodQuality q = judges.measure(drawn);
+    const SurfaceDistances d = surface_distance(source, drawn);
     const double share =
         static_cast<double>(q.triangles) / std::max<double>(1, static_cast<double>(source.triangles.size()));
     table.rows.push_back(quality_row(fmt::format("{}", i), q, share));
+    table.rows.back().push_back(fmt::format("{:.4g}", d.from_level.mean));
+    table.rows.back().push_back(fmt::format("{:.4g}", d.from_source.mean));
     table.rows.back().push_back(fmt::format("{:.1f}", extraction_time(trunk, leaves, levels[i], buffer)));
     rmse.points.push_back({fmt::format("{}", i), static_cast<double>(q.triangles), q.rmse});
     coverage.points.push_back({fmt::format("{}", i), static_cast<double>(q.triangles), q.coverage_ratio});

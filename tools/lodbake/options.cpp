@@ -79,6 +79,23 @@ void add_options(CLI::App& app, Options& options) {
           std::map<std::string, TrunkMethod>{{"radii", TrunkMethod::radii}, {"edges", TrunkMethod::edges}}))
       ->default_str("radii");
   methods
+      ->add_option(
+          "--foliage", options.foliage,
+          "leaves become one bigger, two at a time, or vanish in stratified random order, cell by cell")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, FoliageMethod>{
+          {"collapse", FoliageMethod::collapse}, {"prune", FoliageMethod::prune}}))
+      ->default_str("collapse");
+  methods
+      ->add_option(
+          "--cells", options.cells,
+          "of --foliage prune: at most so many cells, each with its visibility from --views directions")
+      ->check(CLI::Range(1, 1 << 20))
+      ->type_name("N")
+      ->capture_default_str();
+  methods->add_flag("--lines-points", options.lines_points,
+                    "refuse a tree that lacks what lines and points are drawn from (segments by diameter, "
+                    "accumulated lengths, leaf centres, groups in order)");
+  methods
       ->add_option("--divide", options.division,
                    "triangles between trunk and leaves: as the picture is best, or the same share to each")
       ->transform(CLI::CheckedTransformer(

@@ -26,6 +26,8 @@ struct Options {
   double hysteresis = 10;  // percent
   TrunkMethod trunk = TrunkMethod::radii;
   FoliageMethod foliage = FoliageMethod::collapse;
+  std::uint32_t cells = 256;  // of --foliage prune, at most
+  bool lines_points = false;
   Division division = Division::picture;
   SpectrumCodingOptions coding;
   std::optional<double> max_error;  // metres

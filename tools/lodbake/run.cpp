@@ -24,6 +24,19 @@ Result<void> check_output(const Options& options, const TreeFile& file) {
               "name it " + wanted);
 }
 
+// What a runtime draws lines and points from (000, chapter 4) is the order of the tree's own arrays.
+Result<void> check_lines_points(const Options& options, const TreeFile& file) {
+  if (!options.lines_points) return {};
+  for (const char* section : {"TLIN", "TDIA", "TACC", "LCEN", "LGRP", "LORD"}) {
+    const bool needed = section[0] == 'T' ? file.counts().segments > 0 : file.counts().leaves > 0;
+    if (needed && !file.has(section))
+      return refuse(options.input.string(),
+                    fmt::format("section {}, which lines and points need, was left out", section),
+                    "prepare the tree without --omit of lines, points or groups");
+  }
+  return {};
+}
+
 std::string number(double value) {
   return fmt::format("{:.4g}", value);
 }
@@ -82,12 +95,15 @@ Result<void> check_errors(const Options& options, const LodSpectra& spectra) {
   return {};
 }
 
-Result<void> write(const Options& options, const TreeFile& file, const LodSpectra& spectra,
+Result<void> write(const Options& options, const TreeFile& file, const BakedSpectra& baked,
                    Context& context) {
   Stage stage = context.stage("write");
   ContainerWriter writer(file.container());
-  const auto errors = put_spectra(writer, spectra, options.coding);
+  const auto errors = put_spectra(writer, baked.spectra, options.coding);
   if (!errors) return std::unexpected(errors.error());
+  if (baked.cells) {
+    if (auto done = put_foliage_cells(writer, *baked.cells); !done) return done;
+  }
   const auto bytes = writer.finish();
   if (!bytes) return std::unexpected(bytes.error());
   stage.items(bytes->size(), "bytes");
@@ -113,8 +129,10 @@ Result<void> run(const Options& options, Context& context) {
   auto tree = file->load();
   if (!tree) return std::unexpected(tree.error());
   const TreeLooks looks(*tree, options.input, context);
-  auto spectra = make_spectra(*tree, looks.looks(), options, context);
-  if (!spectra) return std::unexpected(spectra.error());
+  if (auto right = check_lines_points(options, *file); !right) return right;
+  auto baked = make_spectra(*tree, looks.looks(), options, context);
+  if (!baked) return std::unexpected(baked.error());
+  LodSpectra* spectra = &baked->spectra;
   choose_levels(options, tree->header.bounds.extent().y, *spectra);
   report_levels(*tree, *spectra, context.report());
   const std::vector<LodLevel> levels = with_full_detail(*spectra);
@@ -126,7 +144,7 @@ Result<void> run(const Options& options, Context& context) {
     context.report().pictures.push_back(std::move(*strip));
   }
   if (auto within = check_errors(options, *spectra); !within) return within;
-  return write(options, *file, *spectra, context);
+  return write(options, *file, *baked, context);
 }
 
 }  // namespace copse::lodbake

@@ -3,6 +3,7 @@
 #include "lib/analysis/lod/coupling.h"
 #include "lib/analysis/lod/edge_collapse.h"
 #include "lib/analysis/lod/floating_leaves.h"
+#include "lib/analysis/lod/foliage_pruning.h"
 #include "lib/analysis/lod/leaf_collapse.h"
 #include "lib/analysis/lod/trunk_radii.h"
 #include "tools/lodbake/level_pictures.h"
@@ -30,19 +31,29 @@ Spectrum trunk_spectrum(const Tree& tree, const Options& options, Context& conte
   return options.trunk == TrunkMethod::edges ? trunk_by_edges(tree, options) : trunk_by_radii(tree);
 }
 
-Spectrum leaf_spectrum(const Tree& tree, Context& context) {
+Spectrum leaf_spectrum(const Tree& tree, const Looks& looks, const Options& options, Context& context,
+                       std::optional<FoliageCells>& cells) {
   Stage stage = context.stage("leaves");
   stage.items(tree.leaves.triangles.size(), "triangles");
-  return collapse_spectrum(tree, {});
+  if (options.foliage == FoliageMethod::collapse || tree.leaves.triangles.empty())
+    return collapse_spectrum(tree, {});
+  cells = prune_foliage(tree, looks,
+                        {.cells = options.cells,
+                         .views = options.views,
+                         .seed = context.options().seed,
+                         .near = options.near.value_or(0),
+                         .far = options.far.value_or(0)});
+  return pruned_spectrum(tree, *cells);
 }
 
 }  // namespace
 
-Result<LodSpectra> make_spectra(const Tree& tree, const Looks& looks, const Options& options,
-                                Context& context) {
-  LodSpectra spectra;
+Result<BakedSpectra> make_spectra(const Tree& tree, const Looks& looks, const Options& options,
+                                  Context& context) {
+  BakedSpectra baked;
+  LodSpectra& spectra = baked.spectra;
   spectra.trunk = trunk_spectrum(tree, options, context);
-  spectra.leaves = leaf_spectrum(tree, context);
+  spectra.leaves = leaf_spectrum(tree, looks, options, context, baked.cells);
   Stage stage = context.stage("divide");
   const bool both = !spectra.trunk.elements.empty() && !spectra.leaves.elements.empty();
   LevelError error;
@@ -55,7 +66,7 @@ Result<LodSpectra> make_spectra(const Tree& tree, const Looks& looks, const Opti
   spectra.schedule = couple(spectra, error, [&](const LodLevel& level) { return floating.count(level); },
                             {.min_triangles = options.min_triangles});
   stage.items(spectra.schedule.size(), "knots");
-  return spectra;
+  return baked;
 }
 
 }  // namespace copse::lodbake

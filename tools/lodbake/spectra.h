@@ -2,15 +2,23 @@
 #pragma once
 
 #include "lib/analysis/measure/picture.h"
+#include "lib/formats/foliage_cells.h"
 #include "lib/formats/spectrum.h"
 #include "lib/formats/tree.h"
 #include "tools/common/tool.h"
 #include "tools/lodbake/options.h"
 
+#include <optional>
+
 namespace copse::lodbake {
 
+struct BakedSpectra {
+  LodSpectra spectra;
+  std::optional<FoliageCells> cells;  // of --foliage prune
+};
+
 // Trunk and leaves, and the schedule that divides triangles between them.
-Result<LodSpectra> make_spectra(const Tree& tree, const Looks& looks, const Options& options,
-                                Context& context);
+Result<BakedSpectra> make_spectra(const Tree& tree, const Looks& looks, const Options& options,
+                                  Context& context);
 
 }  // namespace copse::lodbake

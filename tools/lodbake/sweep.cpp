@@ -1,5 +1,6 @@
 #include "lib/analysis/lod/coupling.h"
 #include "lib/analysis/lod/edge_collapse.h"
+#include "lib/analysis/lod/foliage_pruning.h"
 #include "lib/analysis/measure/lod_quality.h"
 #include "lib/runtime/levels.h"
 #include "tools/lodbake/level_pictures.h"
@@ -72,6 +73,11 @@ void sweep(const Tree& tree, const LodSpectra& spectra, const Looks& looks, cons
   const PartTriangles trunk = trunk_triangles(tree);
   edges.trunk = edge_spectrum(trunk, collapse_edges(trunk), {});
   edges.schedule = couple(edges, nullptr, nullptr);
+  LodSpectra pruned = spectra;
+  pruned.leaves = pruned_spectrum(
+      tree,
+      prune_foliage(tree, looks, {.cells = options.cells, .views = 12, .seed = context.options().seed}));
+  pruned.schedule = couple(pruned, nullptr, nullptr);
   Table table{.name = "sweep",
               .columns = {"Method", "Share", "Triangles", "Area", "Coverage", "Silhouette IoU", "RMSE",
                           "SSIM", "Hull growth", "Pixels"},
@@ -91,6 +97,7 @@ void sweep(const Tree& tree, const LodSpectra& spectra, const Looks& looks, cons
     add("copse", drawn_level(spectra, level_of_triangles(spectra, target)));
     add("copse, even", drawn_level(even, level_of_triangles(even, target)));
     add("copse, trunk by edges", drawn_level(edges, level_of_triangles(edges, target)));
+    add("copse, leaves pruned", drawn_level(pruned, level_of_triangles(pruned, target)));
     add("meshoptimizer, one mesh", peer(spectra, target, true));
     add("meshoptimizer, each part", peer(spectra, target, false));
   }
