@@ -165,9 +165,18 @@ TEST_F(Lodbake, PrunedFoliageComesWithItsCells) {
   EXPECT_LE(triangles({"--level", "1"}), (8u * 2 * 11 + 60) * 3 / 10);
 }
 
+TEST_F(Lodbake, MethodsHaveNames) {
+  ASSERT_EQ(bake({"--method", "edges,prune"}).status, 0);
+  const std::string named = read_text(out_);
+  ASSERT_EQ(bake({"--trunk", "edges", "--foliage", "prune"}).status, 0);
+  EXPECT_EQ(read_text(out_), named);
+  EXPECT_EQ(bake({"--method", "magic"}).status, 2);
+}
+
 TEST_F(Lodbake, LinesAndPointsNeedTheirSections) {
   EXPECT_EQ(bake({"--lines-points"}).status, 0);
-  ASSERT_EQ(run_process({"treeprep", folder_.file("oak.obj"), "-o", tree_, "-q", "--omit", "TACC"}).status, 0);
+  ASSERT_EQ(run_process({"treeprep", folder_.file("oak.obj"), "-o", tree_, "-q", "--omit", "TACC"}).status,
+            0);
   const Outcome o = bake({"--lines-points"});
   EXPECT_EQ(o.status, 1);
   EXPECT_NE(o.err.find("TACC"), std::string::npos) << o.err;

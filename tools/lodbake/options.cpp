@@ -25,6 +25,20 @@ ToolInfo info() {
           .limits = {{"levels of --discrete", k_max_discrete, "levels"}}};
 }
 
+namespace {
+
+void take_methods(const std::vector<std::string>& names, Options& options) {
+  for (const std::string& name : names) {
+    if (name == "radii") options.trunk = TrunkMethod::radii;
+    if (name == "edges") options.trunk = TrunkMethod::edges;
+    if (name == "collapse") options.foliage = FoliageMethod::collapse;
+    if (name == "prune") options.foliage = FoliageMethod::prune;
+    if (name == "lines-points") options.lines_points = true;
+  }
+}
+
+}  // namespace
+
 void add_options(CLI::App& app, Options& options) {
   app.add_option("INPUT", options.input, "a .tree or .stree file, as treeprep writes it")
       ->required()
@@ -74,6 +88,13 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::NonNegativeNumber);
 
   CLI::Option_group* methods = app.add_option_group("How they are made");
+  methods
+      ->add_option_function<std::vector<std::string>>(
+          "--method", [&options](const std::vector<std::string>& names) { take_methods(names, options); },
+          "the systems by name: radii or edges for the trunk, collapse or prune for the leaves, lines-points")
+      ->delimiter(',')
+      ->type_name("NAME,...")
+      ->check(CLI::IsMember({"radii", "edges", "collapse", "prune", "lines-points"}));
   methods->add_option("--trunk", options.trunk, "by radii (rings, sides, ribbons) or by edge collapses")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, TrunkMethod>{{"radii", TrunkMethod::radii}, {"edges", TrunkMethod::edges}}))
