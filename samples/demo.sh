@@ -33,5 +33,25 @@ while read -r name arguments; do
   step treeplay "$out/$name.png, $out/$name.skeleton.png"
 done <"$samples"
 
+printf '== forest\n'
+forest=$out/forest
+mkdir -p "$forest"
+while read -r name arguments; do
+  [ -n "$name" ] && [ "${name#\#}" = "$name" ] || continue
+  # shellcheck disable=SC2086  # the arguments of a tree are several words
+  "$bin/treegrow" $arguments -o "$forest/$name.glb" -q
+  "$bin/treeprep" "$forest/$name.glb" -o "$forest/$name.stree" -q
+done <samples/forest/trees.txt
+step treegrow "$forest/*.glb; treeprep: $forest/*.stree"
+python3 samples/forest/maps.py "$forest"
+cp samples/forest/forest.json "$forest/forest.json"
+step maps "$forest/*.png"
+"$bin/ecogen" "$forest/forest.json" -o "$forest/forest.eco" --export "$forest/map.png" --html "$forest/forest.html" --report "$forest/forest.report.json" -q
+"$bin/treedump" "$forest/forest.eco" --verify -q
+"$bin/treedump" "$forest/forest.eco" >"$forest/forest.txt"
+step ecogen "$forest/forest.eco, verified; $forest/map.png, $forest/forest.html"
+"$bin/treeplay" "$forest/forest.eco" --headless --size 1280x720 --samples 4 --camera 124,38,138,62,6,52,46 --frames "$out/forest.png" -q
+step treeplay "$out/forest.png"
+
 python3 samples/demo_page.py "$out" "$samples" >"$out/index.html"
 printf '\nOpen %s/index.html: every tree, how exactly its hierarchy was recovered, and how long each step took.\n' "$out"

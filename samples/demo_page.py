@@ -59,7 +59,12 @@ td {{ border-top: 1px solid var(--line); padding: .15rem 0; }} td + td {{ text-a
 <h1>copse: from a mesh to a tree that a program can load, move and draw</h1>
 <p>Each sample was grown as an artist would export it, prepared, checked, and drawn: on the left from the .stree file, on the right the
 hierarchy that treeprep recovered from the bare mesh.</p>
-<main>{cards}</main></body></html>""")
+<main>{cards}</main>
+<h2>A forest of them</h2>
+<p>ecogen: eight species on a valley from a page of JSON and six maps; on the left as treeplay draws the .eco, on the right from above.
+<a href="forest/forest.html">ecogen's report</a> · <a href="forest/forest.txt">treedump</a> · <a href="forest/forest.json">the page</a> · <a href="forest/forest.eco">the ecosystem</a></p>
+<div class="pictures"><img src="forest.png" alt="the forest as treeplay draws it" style="width:64%"><img src="forest/map.png" alt="the forest from above" style="width:36%"></div>
+</body></html>""")
 
 
 if __name__ == "__main__":

@@ -146,6 +146,35 @@ void check_nodes(const Ecosystem& eco, Findings& findings) {
   }
 }
 
+// Skips lead forward, stay inside the node above, and bottom nodes are the last of their own.
+void check_tree_nodes(std::string_view section, const Array<BlockNode>& nodes, const Ecosystem& eco,
+                      Findings& findings) {
+  std::vector<std::uint32_t> open;  // where the nodes above end
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    const BlockNode& n = nodes[i];
+    while (!open.empty() && open.back() == i) open.pop_back();
+    const std::uint64_t end = i == 0 ? nodes.size() : open.empty() ? i : open.back();
+    if (n.skip <= i || n.skip > end || (i == 0 && n.skip != nodes.size()))
+      return findings.add(section, i, "skip leads out of the node above");
+    if (n.block != k_none && (n.block >= eco.blocks.size() || n.skip != i + 1))
+      return findings.add(section, i, "block out of range, or nodes below a block");
+    if (n.bounds.empty() || !is_finite(n.bounds.min) || !is_finite(n.bounds.max))
+      findings.add(section, i, "the box is not finite");
+    if (n.skip > i + 1) open.push_back(n.skip);
+  }
+}
+
+void check_tree_boxes(std::string_view section, const Array<BlockNode>& nodes, const Ecosystem& eco,
+                      Findings& findings) {
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].block != k_none && !contains(nodes[i].bounds, eco.blocks[nodes[i].block].bounds))
+      findings.add(section, i, "the box does not hold its block");
+    for (std::uint32_t c = i + 1; c < nodes[i].skip; c = nodes[c].skip)
+      if (!contains(nodes[i].bounds, nodes[c].bounds))
+        findings.add(section, i, "the box does not hold those below");
+  }
+}
+
 }  // namespace
 
 void check_ecosystem_elements(const Ecosystem& eco, Findings& findings) {
@@ -155,6 +184,8 @@ void check_ecosystem_elements(const Ecosystem& eco, Findings& findings) {
   check_packed(eco, findings);
   check_exact(eco, findings);
   check_nodes(eco, findings);
+  check_tree_nodes("EKDT", eco.kd_tree, eco, findings);
+  check_tree_nodes("ERTR", eco.rtree, eco, findings);
 }
 
 void check_ecosystem_boxes(const Ecosystem& eco, Findings& findings) {
@@ -195,6 +226,8 @@ void check_ecosystem_boxes(const Ecosystem& eco, Findings& findings) {
           findings.add("EBOX", i, "the box does not hold its children");
     }
   }
+  check_tree_boxes("EKDT", eco.kd_tree, eco, findings);
+  check_tree_boxes("ERTR", eco.rtree, eco, findings);
   if (!eco.boxes.empty() && !contains(eco.bounds, eco.boxes[0].bounds))
     findings.add("EHED", Finding::k_no_element, "the box of all does not hold the instances");
 }

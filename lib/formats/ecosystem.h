@@ -22,7 +22,7 @@ namespace copse {
 // counter-clockwise.
 struct Terrain {
   std::uint32_t columns = 0, rows = 0;  // vertices; both 0 (no terrain) or both at least 2
-  Double3 origin{};                       // added to every position
+  Double3 origin{};                     // added to every position
   // Regular: vertex (column, row) is at (column * spacing_x, heights[..], row * spacing_z).
   double spacing_x = 0, spacing_z = 0;
   Array<float> heights;
@@ -42,10 +42,10 @@ struct Terrain {
 // A kind of tree. Its mesh is in a file of its own, or packed into the ecosystem's.
 struct TreeType {
   std::string name{};
-  std::string uri{};                     // of the tree's file, relative to the ecosystem's; empty when packed
-  Array<std::uint8_t> packed{};          // the tree's file, whole; empty when by reference
+  std::string uri{};                   // of the tree's file, relative to the ecosystem's; empty when packed
+  Array<std::uint8_t> packed{};        // the tree's file, whole; empty when by reference
   std::uint64_t hash = 0;              // XXH3-64 of the tree's file
-  FloatBox bounds{};                     // of the tree, relative to where it stands; empty when it has nothing
+  FloatBox bounds{};                   // of the tree, relative to where it stands; empty when it has nothing
   std::uint32_t instances = 0;         // in all blocks
   float scale_min = 1, scale_max = 1;  // of its instances, > 0
   float view_range = 0;                // instances farther away are not drawn; 0: no limit
@@ -111,11 +111,21 @@ static_assert(sizeof(InstanceBlock) == 80);
 // level are nodes 4 i to 4 i + 3 of the next, and the blocks below a node are contiguous. A block belongs to
 // the leaf that owns the points where its instances are planted; boxes hold whole trees and overlap.
 struct QuadNode {
-  FloatBox bounds{};                                 // empty: invalid, nothing is planted below
+  FloatBox bounds{};                               // empty: invalid, nothing is planted below
   std::uint32_t first_block = 0, block_count = 0;  // all blocks below
   friend bool operator==(const QuadNode&, const QuadNode&) = default;
 };
 static_assert(sizeof(QuadNode) == 32);
+
+// A node of another hierarchy over the blocks, depth first from node 0: what is below node i is i + 1 .. skip
+// - 1.
+struct BlockNode {
+  FloatBox bounds{};             // of all blocks below
+  std::uint32_t skip = 0;        // the next node that is not below this one
+  std::uint32_t block = k_none;  // of a bottom node, none inside
+  friend bool operator==(const BlockNode&, const BlockNode&) = default;
+};
+static_assert(sizeof(BlockNode) == 32);
 
 inline constexpr std::uint32_t k_max_quad_depth = 10;
 
@@ -134,9 +144,10 @@ struct Ecosystem {
   std::array<double, 4> area{};  // that the box hierarchy divides: x0, z0, x1, z1
   std::uint32_t depth = 0;       // of the box hierarchy
   Array<InstanceBlock> blocks;
-  Array<PackedInstance> packed;  // either these ...
-  Array<ExactInstance> exact;    // ... or these
-  Array<QuadNode> boxes;          // first_quad_node(depth + 1) nodes; empty when there are no blocks
+  Array<PackedInstance> packed;     // either these ...
+  Array<ExactInstance> exact;       // ... or these
+  Array<QuadNode> boxes;            // first_quad_node(depth + 1) nodes; empty when there are no blocks
+  Array<BlockNode> kd_tree, rtree;  // over the blocks that have a box; each may be empty
   // How far what is stored may lie from what was meant: at most.
   float position_error = 0;  // m
   float rotation_error = 0;  // radians

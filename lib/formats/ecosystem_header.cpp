@@ -12,7 +12,7 @@ namespace {
 
 enum HeadFlags : std::uint32_t { flag_exact = 1, flag_regular = 2, all_flags = 3 };
 enum TypeFlags : std::uint32_t { flag_packed = 1 };
-constexpr std::size_t k_flags_offset = 80, k_used = 184;
+constexpr std::size_t k_flags_offset = 80, k_used = 192;
 
 // Every field of the head in its order; `field` reads or writes.
 template <class Field, class Eco>
@@ -27,6 +27,7 @@ void walk(Field&& field, Eco& eco, EcosystemCounts& c, std::uint32_t& flags) {
   field(eco.terrain.texture_size);
   field(eco.position_error), field(eco.rotation_error), field(eco.scale_error);
   field(eco.seed);
+  field(c.kd_nodes), field(c.rtree_nodes);
 }
 
 template <class Field, class Type>
@@ -84,7 +85,9 @@ std::vector<std::uint8_t> encode_ecosystem_head(const Ecosystem& eco) {
                     .blocks = static_cast<std::uint32_t>(eco.blocks.size()),
                     .instances = static_cast<std::uint32_t>(eco.instance_count()),
                     .materials = static_cast<std::uint32_t>(eco.materials.size()),
-                    .textures = static_cast<std::uint32_t>(eco.textures.size())};
+                    .textures = static_cast<std::uint32_t>(eco.textures.size()),
+                    .kd_nodes = static_cast<std::uint32_t>(eco.kd_tree.size()),
+                    .rtree_nodes = static_cast<std::uint32_t>(eco.rtree.size())};
   std::uint32_t flags = (eco.exact.empty() ? 0u : flag_exact) | (eco.terrain.regular() ? flag_regular : 0u);
   std::vector<std::uint8_t> bytes;
   bytes.reserve(k_ecosystem_head_size);

@@ -18,6 +18,7 @@ inline constexpr std::size_t k_type_record = 64;
 
 struct EcosystemCounts {
   std::uint32_t types = 0, blocks = 0, instances = 0, materials = 0, textures = 0;
+  std::uint32_t kd_nodes = 0, rtree_nodes = 0;
   bool exact = false;            // 48 bytes an instance
   bool regular_terrain = false;  // EHGT, otherwise EPNT
   std::uint32_t box_nodes(std::uint32_t depth) const { return blocks ? first_quad_node(depth + 1) : 0; }

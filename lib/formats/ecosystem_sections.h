@@ -16,6 +16,8 @@ void for_each_array(EcosystemRef& eco, const EcosystemCounts& counts, Visit&& vi
   visit("EHGT", eco.terrain.heights, counts.regular_terrain ? vertices : 0);
   visit("EPNT", eco.terrain.points, counts.regular_terrain ? 0 : vertices);
   visit("EBOX", eco.boxes, std::uint64_t{counts.box_nodes(eco.depth)});
+  visit("EKDT", eco.kd_tree, std::uint64_t{counts.kd_nodes});
+  visit("ERTR", eco.rtree, std::uint64_t{counts.rtree_nodes});
   visit("EBLK", eco.blocks, std::uint64_t{counts.blocks});
   visit("EINS", eco.packed, std::uint64_t{counts.exact ? 0 : counts.instances});
   visit("EINX", eco.exact, std::uint64_t{counts.exact ? counts.instances : 0});

@@ -24,7 +24,7 @@ struct DrawVertex {
 };
 static_assert(sizeof(DrawVertex) == 32);
 
-enum class DrawPart : std::uint8_t { trunk, leaves, mesh };  // mesh: nobody knows what it is
+enum class DrawPart : std::uint8_t { trunk, leaves, mesh, ground };  // mesh: nobody knows what it is
 
 struct DrawRange {
   DrawPart part = DrawPart::trunk;

@@ -1,9 +1,11 @@
 #include "tools/ecogen/build.h"
 
 #include "lib/analysis/ecosystem/arrange.h"
+#include "lib/analysis/ecosystem/block_trees.h"
 #include "lib/analysis/ecosystem/populate.h"
 #include "lib/analysis/ecosystem/spread.h"
 #include "lib/analysis/ecosystem/tilt.h"
+#include "tools/ecogen/frames.h"
 #include "tools/ecogen/inputs.h"
 #include "tools/ecogen/leave_out.h"
 #include "tools/ecogen/measure.h"
@@ -79,6 +81,7 @@ class Builder {
     built_.eco.seed = scene_.seed;
     for (const fs::path& texture : scene_.textures)
       built_.eco.textures.push_back({.uri = texture.string(), .mime = "", .bytes = {}});
+    if (options_.path) drop_frames(*population, ground);
     if (auto done = drop_unused(*population); !done) return std::unexpected(done.error());
     if (auto done = lay_out(*population, ground); !done) return in_file(done.error(), options_.document);
     tell_tilts(*population, ground, context_);
@@ -217,6 +220,17 @@ class Builder {
                                             std::to_string(p.in_random_cells), std::to_string(crowded)}}});
   }
 
+  void drop_frames(Population& population, const TerrainGround& ground) {
+    Stage stage = context_.stage("frames");
+    const std::uint64_t gone = drop_unseen(population.instances, built_.eco.types, area_of(scene_, ground),
+                                           *options_.path, options_.view_range);
+    if (gone > 0)
+      built_.left_out.push_back({fmt::format("{} instances", gone),
+                                 "no frame of the camera's path shows them",
+                                 gone * (scene_.exact ? 48 : 24)});
+    stage.items(gone, "instances left out");
+  }
+
   Result<void> drop_unused(Population& population) {
     Stage stage = context_.stage("leave out");
     leave_out(population.instances, built_);
@@ -236,7 +250,9 @@ class Builder {
                                  .area = {area.x0, area.z0, area.x1, area.z1},
                                  .ground = floats ? nullptr : &ground};
     if (auto done = arrange(population.instances, options, built_.eco); !done) return done;
-    const Ecosystem& e = built_.eco;
+    Ecosystem& e = built_.eco;
+    if (scene_.kd_tree) e.kd_tree = block_kd_tree(e);
+    if (scene_.rtree) e.rtree = block_rtree(e);
     auto& errors = context_.report().errors;
     errors.push_back({"stored position", e.position_error, "m", e.position_error, {}, {}, "as placed"});
     errors.push_back({"stored rotation", e.rotation_error, "rad", e.rotation_error, {}, {}, "as placed"});

@@ -3,6 +3,7 @@
 
 #include "lib/formats/ecosystem.h"
 #include "lib/formats/result.h"
+#include "lib/runtime/camera_path.h"
 #include "tools/common/tool.h"
 #include "tools/ecogen/scene.h"
 
@@ -15,6 +16,8 @@ namespace copse::ecogen {
 struct BuildOptions {
   std::filesystem::path folder;  // of the output: names in it are relative to this
   std::filesystem::path document;
+  const CameraPath* path = nullptr;  // instances that no frame of it shows are left out
+  double view_range = 0;
   bool pack = false;  // trees and textures go into the file
 };
 

@@ -32,6 +32,24 @@ void add_options(CLI::App& app, Options& o) {
   page->add_option("--edit", o.edits, "set a value of the page, such as types[0].count=500; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
+  page->add_option("--instances", o.instances, "more instances by hand, as --export NAME.csv writes them")
+      ->type_name("FILE.csv");
+  CLI::Option_group* other = app.add_option_group("For other programs");
+  other
+      ->add_option("--export", o.exports,
+                   "NAME.glb (with EXT_mesh_gpu_instancing), NAME.png (a map from above), NAME.csv (the "
+                   "instances), NAME.obj (small ones); may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  CLI::Option_group* frames = app.add_option_group("Leaving out what no frame shows");
+  CLI::Option* path = frames
+                          ->add_option("--camera-path", o.camera_path,
+                                       "keys of a camera's path, as treeplay --path takes them")
+                          ->type_name("FILE.json");
+  frames->add_option("--view-range", o.view_range, "metres; nothing farther from the path is needed")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name("M")
+      ->needs(path);
   CLI::Option_group* file = app.add_option_group("The file");
   file->add_flag("--pack", o.pack, "put trees and textures into it, instead of their names");
   file->add_flag("--compress", o.compress, "compress its sections (zstd): smaller, but not used in place");

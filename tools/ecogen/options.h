@@ -14,6 +14,9 @@ struct Options {
   bool print_template = false, print_schema = false;
   std::vector<std::string> edits;
   bool pack = false, compress = false;
+  std::filesystem::path instances, camera_path;
+  double view_range = 0;  // m; 0: no limit
+  std::vector<std::filesystem::path> exports;
 };
 
 ToolInfo info();

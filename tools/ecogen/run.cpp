@@ -1,11 +1,17 @@
 #include "tools/ecogen/run.h"
 
 #include "lib/formats/ecosystem_file.h"
+#include "lib/formats/hash.h"
 #include "lib/formats/mapped_file.h"
 #include "tools/ecogen/build.h"
 #include "tools/ecogen/document.h"
+#include "tools/ecogen/export_eco.h"
+#include "tools/ecogen/instance_table.h"
 #include "tools/ecogen/scene.h"
 #include "tools/ecogen/texts.h"
+#include "tools/treeplay/path_file.h"
+
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -31,10 +37,12 @@ Result<Scene> read_page(const Options& options, Context& context) {
   return scene;
 }
 
-std::string provenance(const Report& report) {
+// Nothing of the number of threads, of folders or of the time: the same page gives the same bytes.
+std::string provenance(const Options& options, const Scene& scene, const std::string& page_hash) {
   nlohmann::ordered_json json = {{"tool", "ecogen"}, {"version", COPSE_VERSION}};
-  json["options"] = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : report.options) json["options"][name] = value;
+  json["options"] = {{"seed", scene.seed}, {"pack", options.pack}, {"edit", options.edits}};
+  json["sources"] =
+      nlohmann::ordered_json::array({{{"name", options.input.filename().string()}, {"hash", page_hash}}});
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -44,20 +52,54 @@ void tell_left_out(const Built& built, Context& context) {
   if (!table.rows.empty()) context.report().tables.push_back(std::move(table));
 }
 
+Result<void> read_instances(const Options& options, Scene& scene, Context& context) {
+  if (options.instances.empty()) return {};
+  const auto file = MappedFile::open(options.instances);
+  if (!file) return std::unexpected(file.error());
+  context.read(options.instances, true);
+  return add_instances({reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size()},
+                       options.instances.string(), scene);
+}
+
+// None when no path is named.
+Result<std::optional<CameraPath>> read_frames(const Options& options, Context& context) {
+  if (options.camera_path.empty()) return std::nullopt;
+  auto path = treeplay::read_path(options.camera_path, 1.0);
+  if (!path) return std::unexpected(path.error());
+  context.read(options.camera_path, true);
+  return std::optional(std::move(*path));
+}
+
 Result<void> make(const Options& options, Context& context) {
   if (options.output.extension() != ".eco")
     return fail(Fault::usage, options.output.string(),
                 options.output.empty() ? "no output is named" : "is not the name of an ecosystem",
                 "add -o NAME.eco");
   if (auto writable = context.check_output(options.output); !writable) return writable;
+  for (const fs::path& file : options.exports) {
+    if (auto known = check_export(file); !known) return known;
+    if (auto file_writable = context.check_output(file); !file_writable) return file_writable;
+  }
   auto scene = read_page(options, context);
   if (!scene) return std::unexpected(scene.error());
-  auto built =
-      build(*scene, {.folder = options.output.parent_path(), .document = options.input, .pack = options.pack},
-            context);
+  if (auto added = read_instances(options, *scene, context); !added) return added;
+  const auto path = read_frames(options, context);
+  if (!path) return std::unexpected(path.error());
+  auto built = build(*scene,
+                     {.folder = options.output.parent_path(),
+                      .document = options.input,
+                      .path = *path ? &**path : nullptr,
+                      .view_range = options.view_range,
+                      .pack = options.pack},
+                     context);
   if (!built) return std::unexpected(built.error());
   tell_left_out(*built, context);
-  built->eco.provenance = provenance(context.report());
+  const auto page = hash_file(options.input);
+  if (!page) return std::unexpected(page.error());
+  built->eco.provenance = provenance(options, *scene, page->hash);
+  for (const fs::path& file : options.exports)
+    if (auto done = export_ecosystem(built->eco, options.output.parent_path(), file, context); !done)
+      return done;
   Stage stage = context.stage("write");
   const auto bytes = encode_ecosystem(built->eco, options.compress ? Encoding::zstd : Encoding::raw);
   if (!bytes) return std::unexpected(bytes.error());

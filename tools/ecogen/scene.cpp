@@ -30,6 +30,8 @@ class Reader {
     s.seed = root_.value("seed", std::uint64_t{0});
     s.exact = root_.value("encoding", "packed") == "exact";
     s.depth = root_.value("hierarchy_depth", k_none);
+    for (const Json& tree : root_.value("block_trees", Json::array()))
+      (tree == "kd" ? s.kd_tree : s.rtree) = true;
     if (root_.contains("area")) s.area = area(root_["area"]);
     if (root_.contains("materials")) materials(root_["materials"], s);
     if (root_.contains("terrain")) terrain(root_["terrain"], s);

@@ -59,7 +59,7 @@ struct MixSource {
 
 struct Scene {
   std::uint64_t seed = 0;
-  bool exact = false;
+  bool exact = false, kd_tree = false, rtree = false;
   std::uint32_t depth = k_none;
   std::optional<PlantedArea> area;
   TerrainPlan terrain;  // its maps still unread

@@ -42,6 +42,17 @@ constexpr std::array k_sections{Name{"HEAD", "header"},
                                 Name{"LGRP", "leaf groups"},
                                 Name{"LORD", "order of the leaves"},
                                 Name{"LGHI", "spheres over the leaf groups"},
+                                Name{"EHED", "header"},
+                                Name{"ETYP", "types of trees"},
+                                Name{"ENAM", "names of the types"},
+                                Name{"EHGT", "heights of the terrain"},
+                                Name{"EPNT", "vertices of the terrain"},
+                                Name{"EBOX", "box hierarchy"},
+                                Name{"EKDT", "kd-tree over the blocks"},
+                                Name{"ERTR", "R-tree over the blocks"},
+                                Name{"EBLK", "blocks of instances"},
+                                Name{"EINS", "instances, 24 bytes"},
+                                Name{"EINX", "instances, 48 bytes"},
                                 Name{"VSET", "sets of bounding volumes"},
                                 Name{"VOLU", "bounding volumes"},
                                 Name{"VNUM", "numbers of the volumes"},
@@ -81,7 +92,11 @@ void load_section(Dump& dump, const std::string& name) {
 std::string_view describe_section(std::string_view name) {
   const auto at =
       std::find_if(k_sections.begin(), k_sections.end(), [&](const Name& n) { return n.first == name; });
-  return at == k_sections.end() ? "unknown to this version" : at->second;
+  if (at != k_sections.end()) return at->second;
+  return name.size() == 4 && name[0] == 'P' &&
+                 name.find_first_not_of("0123456789ABCDEF", 1) == std::string_view::npos
+             ? "a packed tree"
+             : "unknown to this version";
 }
 
 std::string_view encoding_name(Encoding encoding) {

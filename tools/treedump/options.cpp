@@ -21,7 +21,8 @@ ToolInfo treedump_info() {
 }
 
 void add_options(CLI::App& app, DumpOptions& options) {
-  app.add_option("FILE", options.files, "a .tree or .stree file; two with --diff, any number with --verify")
+  app.add_option("FILE", options.files,
+                 "a .tree, .stree or .eco file; two with --diff, any number with --verify")
       ->required()
       ->type_name("FILE");
   const char* what = "What to show (a summary for a person when none is given)";

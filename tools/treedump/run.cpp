@@ -1,5 +1,6 @@
 #include "tools/treedump/run.h"
 
+#include "tools/treedump/eco_view.h"
 #include "tools/treedump/json.h"
 #include "tools/treedump/text.h"
 #include "tools/treedump/views.h"
@@ -26,7 +27,15 @@ Result<void> answer(const DumpOptions& options, Context& context, const std::str
   return {};
 }
 
+Result<void> describe_ecosystem(const DumpOptions& options, Context& context) {
+  const auto text = options.json ? ecosystem_json(options.files.front(), options.arrays)
+                                 : ecosystem_text(options.files.front());
+  if (!text) return std::unexpected(text.error());
+  return answer(options, context, *text);
+}
+
 Result<void> describe(const DumpOptions& options, Context& context) {
+  if (is_ecosystem(options.files.front())) return describe_ecosystem(options, context);
   Stage stage = context.stage("read");
   const std::vector<std::string> wanted{"PROV", "MATL", "TEXR", "TDAT", "RADI", "TDIA", "TACC"};
   const auto dump = open_dump(options.files.front(), options.arrays ? std::vector<std::string>{} : wanted);

@@ -1,4 +1,5 @@
 #include "lib/analysis/volumes/check_certificates.h"
+#include "lib/formats/ecosystem_file.h"
 #include "tools/treedump/views.h"
 
 #include <algorithm>
@@ -9,6 +10,11 @@ Result<std::vector<std::string>> verify_file(const std::filesystem::path& path) 
   auto container = Container::open(path);
   if (!container && container.error().fault != Fault::refused) return std::unexpected(container.error());
   if (!container) return std::vector<std::string>{container.error().what};
+  if (container->kind() == FileKind::eco) {
+    const auto eco = EcosystemFile::open(path);
+    if (eco) return eco->verify();
+    return std::vector<std::string>{eco.error().what};
+  }
   const auto file = TreeFile::open(path);
   if (file) {
     auto failures = file->verify();

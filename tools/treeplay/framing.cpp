@@ -1,20 +1,18 @@
 #include "tools/treeplay/framing.h"
 
-#include <algorithm>
 #include <numbers>
-#include <vector>
 
 namespace copse::treeplay {
 
 Camera framing(const Scene& scene, double aspect) {
-  return framing(scene, aspect, {0.42, 0.085, 1}, 32 * std::numbers::pi / 180);
+  // A forest is looked at from above its crowns, a tree from where people stand.
+  return framing(scene, aspect, {0.42, scene.eco ? 0.45 : 0.085, 1}, 32 * std::numbers::pi / 180);
 }
 
 Camera framing(const Scene& scene, double aspect, const Double3& back, double fov) {
-  std::vector<Float3> points(scene.geometry.vertices.size());
-  std::transform(scene.geometry.vertices.begin(), scene.geometry.vertices.end(), points.begin(),
-                 [](const DrawVertex& v) { return v.position; });
-  if (const auto camera = fit(points, scene.geometry.origin, back, fov, aspect, 0.12)) return *camera;
+  const double margin = scene.eco ? 0.02 : 0.12;
+  if (const auto camera = fit(scene.outline(), scene.geometry.origin, back, fov, aspect, margin))
+    return *camera;
   Camera camera;
   camera.target = scene.geometry.origin;
   camera.eye = camera.target + normalized(back) * 3.0;

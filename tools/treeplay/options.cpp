@@ -103,7 +103,7 @@ Look look_of(const Options& options) {
 }  // namespace
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("INPUT", options.input, "a .tree or .stree, or any mesh that treeprep reads")
+  app.add_option("INPUT", options.input, "a .tree, .stree or .eco, or any mesh that treeprep reads")
       ->required()
       ->type_name("FILE");
 

@@ -1,5 +1,6 @@
 #include "tools/treeplay/renderer.h"
 
+#include "lib/runtime/block_culling.h"
 #include "tools/treeplay/shaders.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ bool shows_surface(Show show) {
 bool has_ground(const FramePlan& plan, const Scene& scene) {
   const Backdrop backdrop = backdrop_of(plan.look);
   const bool plain = backdrop == Backdrop::white || backdrop == Backdrop::black;
-  return plan.look.ground && plan.look.lit && !plain && shows_surface(plan.look.show) &&
+  return !scene.eco && plan.look.ground && plan.look.lit && !plain && shows_surface(plan.look.show) &&
          plan.view.eye.y > scene.ground;
 }
 
@@ -119,8 +120,8 @@ void Renderer::draw_shadow_map() {
   // it.
   const CameraFrame f = frame_of({.eye = settings_.sun, .target = {}, .up = {0, 1, 0}, .fov = 1});
   DoubleBox box;
-  for (const DrawVertex& v : scene_.geometry.vertices) {
-    const Double3 p = to_double(v.position);
+  for (const Float3& v : scene_.outline()) {
+    const Double3 p = to_double(v);
     box.grow(Double3{dot(p, f.right), dot(p, f.up), dot(p, f.back)});
   }
   if (box.empty()) box.grow(Double3{});
@@ -171,6 +172,10 @@ FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int 
   const double far_plane = away + 1.5 * k_ground_reach * size;
   const double near_plane = std::max({0.3 * nearest, 1e-4 * size, 1e-6 * far_plane});
   plan.view = make_view(camera, static_cast<double>(width) / height, near_plane, far_plane);
+  if (scene_.eco) {
+    plan_ecosystem(camera, plan);
+    return plan;
+  }
   plan.instances_tested = 1;
   plan.tree_visible = classify(frustum_of(plan.view), eye, box, &plan.plane_tests) != Visibility::outside;
   if (!plan.tree_visible) return plan;
@@ -181,6 +186,22 @@ FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int 
     plan.points = skeleton_.points();
   }
   return plan;
+}
+
+void Renderer::plan_ecosystem(const Camera& camera, FramePlan& plan) const {
+  std::vector<std::uint32_t> blocks;
+  CullCounts counts;
+  visible_blocks(*scene_.eco, frustum_of(plan.view), camera.eye, blocks, &counts);
+  plan.plane_tests = counts.plane_tests;
+  for (const std::uint32_t b : blocks) {
+    for (std::uint32_t r = scene_.first_run[b]; r < scene_.first_run[b + 1]; ++r) {
+      const CopyRun& run = scene_.runs[r];
+      plan.runs.push_back(run);
+      plan.instances_drawn += run.count;
+      plan.triangles += run.count * scene_.groups[run.group].triangles;
+    }
+    plan.instances_tested += scene_.eco->blocks[b].count;
+  }
 }
 
 Result<void> Renderer::fit_tile_buffers(int width, int height) {
@@ -218,6 +239,7 @@ Result<void> Renderer::draw(const FramePlan& plan, GLuint framebuffer) {
   const int tile_height = static_cast<int>(
       std::clamp<std::int64_t>(k_tile_fragments / row, 1, std::min(plan.height, largest_size_ / s)));
   if (auto done = fit_tile_buffers(tile_width * s, tile_height * s); !done) return done;
+  if (scene_.eco) surfaces_.show(scene_, plan.runs);
   const Mat4 camera = plan.view.rotation;
   for (int y = 0; y < plan.height; y += tile_height) {
     for (int x = 0; x < plan.width; x += tile_width) {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace copse::treeplay {
 
@@ -36,6 +37,7 @@ struct FramePlan {
   View view;
   int width = 0, height = 0;
   bool tree_visible = true;
+  std::vector<CopyRun> runs;  // of an ecosystem: what is seen
   // What was done and what will be drawn, for the statistics.
   std::uint64_t triangles = 0, lines = 0, points = 0;
   std::uint64_t instances_tested = 0, instances_drawn = 0, plane_tests = 0;
@@ -63,6 +65,7 @@ class Renderer {
   Result<void> make_programs();
   Result<void> make_lights();
   void draw_shadow_map();
+  void plan_ecosystem(const Camera& camera, FramePlan& plan) const;
   Result<void> fit_tile_buffers(int width, int height);
   void set_common(const Program& program, const Tile& tile) const;
   void draw_tile(const FramePlan& plan, const Tile& tile);

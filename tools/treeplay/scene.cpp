@@ -2,6 +2,7 @@
 
 #include "lib/formats/import/import.h"
 #include "lib/formats/tree_file.h"
+#include "tools/treeplay/eco_scene.h"
 
 #include <algorithm>
 #include <cctype>
@@ -16,6 +17,31 @@ DoubleBox Scene::bounds() const {
   const FloatBox& b = geometry.bounds;
   if (b.empty()) return {};
   return {geometry.origin + to_double(b.min), geometry.origin + to_double(b.max)};
+}
+
+std::uint64_t Scene::triangles() const {
+  std::uint64_t sum = 0;
+  for (const DrawGroup& group : groups)
+    for (std::uint32_t r = 0; r < group.range_count; ++r)
+      sum += std::uint64_t{geometry.ranges[group.first_range + r].index_count} / 3 * group.instance_count;
+  return sum;
+}
+
+std::vector<Float3> Scene::outline() const {
+  std::vector<Float3> points;
+  if (!eco) {
+    for (const DrawVertex& v : geometry.vertices) points.push_back(v.position);
+    return points;
+  }
+  const FloatBox& b = geometry.bounds;
+  for (int c = 0; c < 8 && !b.empty(); ++c)
+    points.push_back({c & 1 ? b.max.x : b.min.x, c & 2 ? b.max.y : b.min.y, c & 4 ? b.max.z : b.min.z});
+  return points;
+}
+
+Float3 moved(const DrawCopy& copy, const Float3& p) {
+  const auto row = [&](const Float4& r) { return r.x * p.x + r.y * p.y + r.z * p.z + r.w; };
+  return {row(copy.rows[0]), row(copy.rows[1]), row(copy.rows[2])};
 }
 
 double Scene::size() const {
@@ -36,16 +62,22 @@ Material material_of(const Scene& scene, const DrawRange& range) {
   m.double_sided = true;
   if (range.part == DrawPart::trunk) m.diffuse = {0.23f, 0.165f, 0.115f};
   if (range.part == DrawPart::leaves) m.diffuse = {0.13f, 0.235f, 0.05f};
+  if (range.part == DrawPart::ground) m.diffuse = {0.098f, 0.122f, 0.044f};
   if (range.part == DrawPart::mesh) m.diffuse = {0.42f, 0.41f, 0.39f};
   return m;
 }
 
 namespace {
 
-bool is_tree_file(const fs::path& path) {
+std::string extension_of(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+bool is_tree_file(const fs::path& path) {
+  const std::string extension = extension_of(path);
   return extension == ".tree" || extension == ".stree";
 }
 
@@ -63,19 +95,7 @@ void load_images(Scene& scene, const std::vector<Texture>& textures, const fs::p
   for (std::size_t i = 0; i < textures.size(); ++i) {
     const auto uses = [&](const DrawRange& range) { return material_of(scene, range).texture == i; };
     if (std::none_of(scene.geometry.ranges.begin(), scene.geometry.ranges.end(), uses)) continue;
-    const Texture& texture = textures[i];
-    const fs::path path = file.parent_path() / texture.uri;
-    Result<Image> image = texture.bytes.empty()
-                              ? read_image(path)
-                              : read_image(texture.bytes, fmt::format("{}, texture {}", file.string(), i));
-    if (!image) {
-      const Error& e = image.error();
-      context.warn(fmt::format("{}{}{}; its surfaces are drawn in their mean colour", e.file,
-                               e.file.empty() ? "" : ": ", e.what));
-      continue;
-    }
-    if (texture.bytes.empty()) context.read(path, false);
-    scene.images[i] = std::move(*image);
+    scene.images[i] = read_texture(textures[i], i, file, context);
   }
 }
 
@@ -105,20 +125,51 @@ Result<void> take_mesh(Scene& scene, const fs::path& path, Context& context) {
   return {};
 }
 
+Result<void> take(Scene& scene, const fs::path& path, Context& context) {
+  if (extension_of(path) == ".eco") return take_ecosystem(scene, path, context);
+  const auto taken = is_tree_file(path) ? take_tree(scene, path, context) : take_mesh(scene, path, context);
+  scene.copies.resize(1);
+  scene.groups = {{.range_count = static_cast<std::uint32_t>(scene.geometry.ranges.size()),
+                   .instance_count = 1,
+                   .triangles = scene.geometry.indices.size() / 3}};
+  return taken;
+}
+
 }  // namespace
+
+std::optional<Image> read_texture(const Texture& texture, std::size_t index, const fs::path& file,
+                                  Context& context) {
+  const fs::path path = file.parent_path() / texture.uri;
+  Result<Image> image = texture.bytes.empty()
+                            ? read_image(path)
+                            : read_image(texture.bytes, fmt::format("{}, texture {}", file.string(), index));
+  if (!image) {
+    const Error& e = image.error();
+    context.warn(fmt::format("{}{}{}; its surfaces are drawn in their mean colour", e.file,
+                             e.file.empty() ? "" : ": ", e.what));
+    return std::nullopt;
+  }
+  if (texture.bytes.empty()) context.read(path, false);
+  return std::move(*image);
+}
 
 Result<Scene> load_scene(const fs::path& path, bool lights, Context& context) {
   Scene scene;
   scene.name = path.filename().string();
   {
     Stage stage = context.stage("load");
-    auto taken = is_tree_file(path) ? take_tree(scene, path, context) : take_mesh(scene, path, context);
+    auto taken = take(scene, path, context);
     if (!taken) return std::unexpected(taken.error());
     stage.items(scene.triangles(), "triangles");
   }
   scene.ground = ground_under(scene.bounds());
   if (!lights) return scene;
   Stage stage = context.stage("sky light");
+  if (scene.eco) {
+    scene.sky = forest_sky(scene);
+    stage.items(scene.sky.cells.size(), "cells");
+    return scene;
+  }
   std::vector<float> opacity;
   for (const DrawRange& range : scene.geometry.ranges) {
     const Material m = material_of(scene, range);

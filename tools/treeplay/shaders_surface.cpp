@@ -6,16 +6,23 @@ const std::string_view k_surface_vertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 texcoord;
+layout(location = 3) in vec4 row_x;  // of the instance: from its tree's frame to "local"
+layout(location = 4) in vec4 row_y;
+layout(location = 5) in vec4 row_z;
+layout(location = 6) in vec4 tint;
 uniform mat4 clip;
 uniform vec3 offset;
-out vec3 v_local, v_normal;
+out vec3 v_local, v_normal, v_tint;
 out vec2 v_texcoord;
+vec3 decode(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), vec3(greaterThan(c, vec3(0.04045)))); }
 invariant gl_Position;  // both passes must agree to the bit
 void main() {
-  v_local = position;
-  v_normal = normal;
+  vec4 p = vec4(position, 1.0);
+  v_local = vec3(dot(row_x, p), dot(row_y, p), dot(row_z, p));
+  v_normal = vec3(dot(row_x.xyz, normal), dot(row_y.xyz, normal), dot(row_z.xyz, normal));
+  v_tint = decode(tint.rgb);
   v_texcoord = vec2(texcoord.x, 1.0 - texcoord.y);  // images start at the top
-  gl_Position = clip * vec4(position + offset, 1.0);
+  gl_Position = clip * vec4(v_local + offset, 1.0);
 }
 )";
 
@@ -42,9 +49,24 @@ uniform float shininess;
 uniform float thin;   // 1 for leaves: light shines through
 uniform bool lit;
 uniform float ghost;  // towards the backdrop, so that lines drawn over it stand out
-in vec3 v_local, v_normal;
+uniform bool ground;  // a terrain: bare colours get patches and grain
+in vec3 v_local, v_normal, v_tint;
 in vec2 v_texcoord;
 out vec4 colour;
+
+// In metres; each pattern fades out before it gets finer than a fragment.
+vec3 soil(vec3 albedo) {
+  vec2 at = v_local.xz;
+  float fine = sqrt(length(dFdx(at)) * length(dFdy(at)));
+  float patches = value_noise(at * 0.06 + 5.0) + 0.5 * value_noise(at * 0.17 + 9.0) - 0.75;
+  float grain = 0.0, weight = 0.5;
+  for (float f = 0.9; f < 60.0; f *= 2.7) {
+    grain += weight * (value_noise(at * f + f) - 0.5) * (1.0 - smoothstep(0.25, 1.1, fine * f));
+    weight *= 0.85;
+  }
+  vec3 c = albedo * (1.0 + 0.25 * patches + 0.7 * grain);
+  return mix(c, c * vec3(1.34, 1.06, 0.80), 0.8 * smoothstep(-0.6, 1.0, patches + 0.8 * grain));
+}
 
 vec3 shade(vec3 albedo) {
   vec3 view = -normalize(v_local + offset);
@@ -73,7 +95,8 @@ vec3 shade(vec3 albedo) {
 }
 
 void main() {
-  vec3 albedo = diffuse * texture(image, v_texcoord).rgb;
+  vec3 albedo = diffuse * v_tint * texture(image, v_texcoord).rgb;
+  if (ground) albedo = soil(albedo);
   vec3 c = lit ? tone(shade(albedo) + emission) : clamp(albedo + emission, 0.0, 1.0);
   colour = vec4(mix(c, vec3(0.86), ghost), 1.0);
 }
@@ -82,11 +105,15 @@ void main() {
 const std::string_view k_shadow_vertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec2 texcoord;
+layout(location = 3) in vec4 row_x;
+layout(location = 4) in vec4 row_y;
+layout(location = 5) in vec4 row_z;
 uniform mat4 clip;
 out vec2 v_texcoord;
 void main() {
+  vec4 p = vec4(position, 1.0);
   v_texcoord = vec2(texcoord.x, 1.0 - texcoord.y);
-  gl_Position = clip * vec4(position, 1.0);
+  gl_Position = clip * vec4(dot(row_x, p), dot(row_y, p), dot(row_z, p), 1.0);
 }
 )";
 

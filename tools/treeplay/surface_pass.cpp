@@ -99,10 +99,32 @@ Result<void> SurfacePass::upload(const Scene& scene) {
   attribute(1, 3, offsetof(DrawVertex, normal));
   attribute(2, 2, offsetof(DrawVertex, texcoord));
 
+  copies_ = make_buffer();
+  glBindBuffer(GL_ARRAY_BUFFER, copies_.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.copies.size() * sizeof(DrawCopy)),
+               scene.copies.data(), GL_DYNAMIC_DRAW);
+  for (GLuint index = 3; index <= 6; ++index) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribDivisor(index, 1);
+  }
+  for (const DrawGroup& group : scene.groups)
+    shown_.push_back({static_cast<GLsizei>(group.instance_count), group.first_copy});
+
   // A texture's mip levels depend on the alpha cutoff, so a pair of both is an image.
   std::map<std::pair<std::uint32_t, float>, std::size_t> uploaded;
-  for (const DrawRange& range : g.ranges) {
+  std::vector<std::uint32_t> group_of(g.ranges.size());
+  std::vector<bool> drawn(g.ranges.size());
+  for (std::uint32_t i = 0; i < scene.groups.size(); ++i)
+    for (std::uint32_t k = 0; k < scene.groups[i].range_count; ++k) {
+      group_of[scene.groups[i].first_range + k] = i;
+      drawn[scene.groups[i].first_range + k] = true;
+    }
+  for (std::size_t n = 0; n < g.ranges.size(); ++n) {
+    if (!drawn[n]) continue;
+    const DrawRange& range = g.ranges[n];
     Range r;
+    r.group = group_of[n];
+    r.ground = range.part == DrawPart::ground;
     r.count = static_cast<GLsizei>(range.index_count);
     r.first =
         reinterpret_cast<const void*>(sizeof(std::uint32_t) * std::size_t{range.first_index});  // NOLINT
@@ -123,10 +145,48 @@ Result<void> SurfacePass::upload(const Scene& scene) {
   return check_gl("uploading the model");
 }
 
+// GL 3.3 has no base instance: the attributes of a group's copies begin elsewhere instead.
+void SurfacePass::point_at(std::size_t first_copy) const {
+  glBindBuffer(GL_ARRAY_BUFFER, copies_.get());
+  const std::size_t base = first_copy * sizeof(DrawCopy);
+  for (GLuint row = 0; row < 3; ++row)
+    glVertexAttribPointer(3 + row, 4, GL_FLOAT, GL_FALSE, sizeof(DrawCopy),
+                          reinterpret_cast<const void*>(base + row * sizeof(Float4)));  // NOLINT
+  glVertexAttribPointer(6, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(DrawCopy),
+                        reinterpret_cast<const void*>(base + offsetof(DrawCopy, tint)));  // NOLINT
+}
+
+void SurfacePass::show(const Scene& scene, const std::vector<CopyRun>& runs) {
+  std::vector<std::size_t> next(scene.groups.size());
+  for (Shown& s : shown_) s.count = 0;
+  shown_[0].count = 1;  // the terrain
+  for (const CopyRun& run : runs) shown_[run.group].count += static_cast<GLsizei>(run.count);
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    shown_[i].first = next[i] = total;
+    total += static_cast<std::size_t>(shown_[i].count);
+  }
+  gathered_.resize(total);
+  gathered_[0] = scene.copies[0];
+  for (const CopyRun& run : runs) {
+    std::copy_n(scene.copies.begin() + run.first, run.count,
+                gathered_.begin() + static_cast<std::ptrdiff_t>(next[run.group]));
+    next[run.group] += run.count;
+  }
+  glBindBuffer(GL_ARRAY_BUFFER, copies_.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(total * sizeof(DrawCopy)), gathered_.data(),
+               GL_DYNAMIC_DRAW);
+}
+
 void SurfacePass::draw(const Program& program, bool with_light) const {
   glBindVertexArray(array_.get());
   glActiveTexture(GL_TEXTURE0);
+  std::uint32_t group = k_none;
   for (const Range& r : ranges_) {
+    const Shown& shown = shown_[r.group];
+    if (shown.count == 0) continue;
+    if (r.group != group) point_at(shown.first);
+    group = r.group;
     glBindTexture(GL_TEXTURE_2D, images_[r.image].get());
     glBindSampler(0, r.repeats ? repeating_.get() : clamping_.get());
     if (with_light) {
@@ -135,11 +195,12 @@ void SurfacePass::draw(const Program& program, bool with_light) const {
       program.set("emission", r.material.emission);
       program.set("shininess", r.material.shininess);
       program.set("thin", r.thin);
+      program.set("ground", r.ground ? 1 : 0);
     } else {
       program.set("cutoff", r.material.alpha_cutoff);
       program.set("opacity", r.material.alpha);
     }
-    glDrawElements(GL_TRIANGLES, r.count, GL_UNSIGNED_INT, r.first);
+    glDrawElementsInstanced(GL_TRIANGLES, r.count, GL_UNSIGNED_INT, r.first, shown.count);
   }
   glBindSampler(0, 0);
 }

@@ -13,6 +13,9 @@ class SurfacePass {
   static Result<SurfacePass> make();
   Result<void> upload(const Scene& scene);
 
+  // The runs of copies that the next draws show: everything until it is called. Uploads them.
+  void show(const Scene& scene, const std::vector<CopyRun>& runs);
+
   // Into the bound depth-only framebuffer.
   void draw_shadow(const Mat4& clip) const;
   // Depth first, so that the costly second pass runs once a fragment: `clip` takes camera-relative positions.
@@ -23,6 +26,8 @@ class SurfacePass {
 
  private:
   struct Range {
+    std::uint32_t group = 0;
+    bool ground = false;
     GLsizei count = 0;
     const void* first = nullptr;  // offset into the index buffer
     Material material;
@@ -36,7 +41,15 @@ class SurfacePass {
 
   Program coverage_, light_, shadow_;
   VertexArray array_;
-  Buffer vertices_, indices_;
+  // Of a group, in the buffer of copies that is bound.
+  struct Shown {
+    GLsizei count = 0;
+    std::size_t first = 0;
+  };
+  void point_at(std::size_t first_copy) const;
+  Buffer vertices_, indices_, copies_;
+  std::vector<Shown> shown_;        // one a group
+  std::vector<DrawCopy> gathered_;  // of show(), kept for its memory
   std::vector<Texture2> images_;
   Sampler repeating_, clamping_;
   std::vector<Range> ranges_;

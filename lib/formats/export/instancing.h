@@ -1,0 +1,28 @@
+// EXT_mesh_gpu_instancing: a GLB whose nodes are drawn many times.
+#pragma once
+
+#include "lib/formats/result.h"
+#include "lib/formats/vec.h"
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace copse {
+
+struct NodeInstances {
+  std::string node;  // its name
+  std::vector<Float3> translations;
+  std::vector<std::array<float, 4>> rotations;  // x, y, z, w; length 1
+  std::vector<float> scales;
+};
+
+// `glb` (as export_mesh writes it) with instances for the named nodes, and everything moved by `origin`,
+// exactly: in the translation of a root node. Nodes that are not named stay as they are. Refused: a name that
+// no node has, more than 4 GiB.
+Result<std::string> with_instances(std::string_view glb, std::span<const NodeInstances> nodes,
+                                   const Double3& origin);
+
+}  // namespace copse

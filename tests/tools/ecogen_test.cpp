@@ -1,0 +1,327 @@
+// ecogen as a user calls it.
+#include "lib/formats/ecosystem_file.h"
+#include "lib/formats/import/image.h"
+#include "lib/formats/instance_codec.h"
+#include "lib/formats/tree_file.h"
+#include "tests/formats/tree_maker.h"
+#include "tests/tools/process.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace copse {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A folder with two little trees and a page.
+class Ecogen : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"a.stree", "b.tree"}) {
+      const bool sensitive = std::string(name) == "a.stree";
+      Tree tree = make_tree({.kind = sensitive ? TreeKind::sensitive : TreeKind::still}, 1);
+      tree.header.origin = {};  // it stands where its instances do
+      const auto bytes = encode_tree(tree);
+      ASSERT_TRUE(bytes);
+      write_text(file(name), {bytes->begin(), bytes->end()});
+    }
+    page_ = Json::parse(R"({"seed": 3,
+      "terrain": {"size": [60, 40], "samples": [31, 21], "faults": {"count": 20, "first": 0.5, "smooth": 1}, "material": "soil"},
+      "materials": [{"name": "soil", "diffuse": [0.2, 0.2, 0.1]}, {"name": "gold"}],
+      "types": [{"name": "a", "tree": "a.stree", "count": 200, "scale": {"min": 0.01, "max": 0.02}, "tilt": "terrain"},
+                {"name": "b", "tree": "b.tree", "count": 50, "scale": 0.03}]})");
+  }
+
+  std::string file(const std::string& name) const { return folder_.file(name); }
+  void save() const { write_text(file("page.json"), page_.dump(1)); }
+  Outcome run(std::vector<std::string> more = {}) const {
+    save();
+    std::vector<std::string> command{"ecogen", file("page.json"), "-o", file("out.eco")};
+    command.insert(command.end(), more.begin(), more.end());
+    return run_process(command);
+  }
+  Ecosystem load() const {
+    const auto opened = EcosystemFile::open(file("out.eco"));
+    EXPECT_TRUE(opened) << (opened ? "" : opened.error().what);
+    EXPECT_EQ(opened->verify(), std::vector<std::string>{});
+    auto eco = opened->load();
+    EXPECT_TRUE(eco);
+    return std::move(*eco);
+  }
+  // The one line of a refusal.
+  std::string refusal(int status = 1) const {
+    const Outcome o = run();
+    EXPECT_EQ(o.status, status) << o.err;
+    EXPECT_EQ(line_count(o.err), 1u) << o.err;
+    EXPECT_FALSE(std::filesystem::exists(file("out.eco")));
+    return o.err;
+  }
+
+  TemporaryFolder folder_;
+  Json page_;
+};
+
+TEST_F(Ecogen, MakesAnEcosystemThatVerifies) {
+  const Outcome o = run({"--report", file("r.json"), "--depfile", file("d")});
+  ASSERT_EQ(o.status, 0) << o.err;
+  const Ecosystem eco = load();
+  EXPECT_EQ(eco.instance_count(), 250u);
+  EXPECT_EQ(eco.types[0].instances, 200u);
+  EXPECT_EQ(eco.types[0].uri, "a.stree");
+  EXPECT_EQ(eco.seed, 3u);
+  const Json report = Json::parse(read_text(file("r.json")));
+  EXPECT_EQ(report["schema"], "copse.report/1");
+  for (const auto& error : report["errors"]) {
+    if (error["name"] != "foot off the ground") continue;
+    EXPECT_LE(error["max"].get<double>(), 1e-5);
+  }
+  const std::string dependencies = read_text(file("d"));
+  for (const char* name : {"page.json", "a.stree", "b.tree"})
+    EXPECT_NE(dependencies.find(name), std::string::npos) << name;
+}
+
+TEST_F(Ecogen, GivesTheSameBytesForAnyNumberOfThreadsAndFolder) {
+  ASSERT_EQ(run({"-j", "1"}).status, 0);
+  const std::string one = read_text(file("out.eco"));
+  ASSERT_EQ(run({"-j", "7"}).status, 0);
+  EXPECT_EQ(one, read_text(file("out.eco")));
+  ASSERT_EQ(run({"--seed", "9"}).status, 0);
+  EXPECT_NE(one, read_text(file("out.eco")));
+}
+
+TEST_F(Ecogen, TheTemplateFitsTheSchemaThatItPrints) {
+  const Outcome page = run_process({"ecogen", "--new"}), schema = run_process({"ecogen", "--schema"});
+  ASSERT_EQ(page.status, 0);
+  ASSERT_EQ(schema.status, 0);
+  EXPECT_EQ(Json::parse(schema.out)["$schema"], "http://json-schema.org/draft-07/schema#");
+  // All that is wrong with it here is that its trees are not there.
+  write_text(file("new.json"), page.out);
+  const Outcome o = run_process({"ecogen", file("new.json"), "-o", file("out.eco")});
+  EXPECT_EQ(o.status, 3);
+  EXPECT_NE(o.err.find("oak.stree"), std::string::npos);
+}
+
+TEST_F(Ecogen, ErrorsNameThePlaceAndWhatIsAllowed) {
+  struct Case {
+    const char *pointer, *value, *place, *allowed;
+  };
+  for (const Case& c :
+       {Case{"/types/1/scale", R"({"min":2,"max":1})", "types[1].scale.max: 1 is below min, 2", "swap"},
+        {"/types/1/scale", "-1", "types[1].scale: -1", "a number above 0"},
+        {"/types/1/scale", "0", "types[1].scale: 0", "above 0"},
+        {"/types/0/count", "-3", "types[0].count: -3", "a whole number from 0"},
+        {"/types/0/count", "1.5", "types[0].count: 1.5", "a whole number"},
+        {"/types/0/scal", "1", "types[0]: 'scal' is unknown here", "did you mean 'scale'"},
+        {"/terain", "1", "the document: 'terain' is unknown here", "did you mean 'terrain'"},
+        {"/types/0/tilt", "\"terain\"", "types[0].tilt", "\"terrain\", \"none\""},
+        {"/types/0/leaf_material", "\"godl\"", "types[0].leaf_material: there is no material called 'godl'",
+         "did you mean 'gold'"},
+        {"/terrain/size", "[1]", "terrain.size", "a list of 2 elements"},
+        {"/terrain/samples/0", "1", "terrain.samples[0]: 1", "from 2 to 32768"},
+        {"/area", "[0,0,100,10]", "area: reaches out of the terrain", "keep it within"},
+        {"/area", "[5,5,5,6]", "area: holds nothing", "x0 < x1"},
+        {"/types/1/name", "\"a\"", "types[1].name: 'a' is the name of types[0]", ""},
+        {"/types/0/instances", R"([{"x":1}])", "types[0].instances[0]: 'z' is missing", ""},
+        {"/terrain/nurbs", R"({"degree":[3,3],"heights":[[1,2],[3,4]]})", "terrain.nurbs", "too few"},
+        {"/terrain/nurbs", R"({"heights":[[1,2],[3,4,5]]})", "terrain.nurbs.heights[1]: has 3 elements", ""},
+        {"/terrain/nurbs", R"({"points":[[[0,0,0],[0,5,0]],[[0,0,9],[0,5,9]]],"degree":[1,1]})",
+         "has no area", ""},
+        {"/terrain/nurbs",
+         R"({"points":[[[0,0,0],[5,0,0]],[[0,0,9],[5,0,9]]],"degree":[1,1],"weights":[[1,0],[1,1]]})",
+         "terrain.nurbs.weights[0][1]: 0", "above 0"},
+        {"/types/0/altitude", R"({"min":1000})", "types[0] (a): there is no place", ""},
+        {"/types/0/spacing", "100", "types[0] (a): 200 asked for", "fewer"},
+        {"/mixes", R"([{"count":1,"parts":[{"type":"c","share":"m.png"}]}])",
+         "mixes[0].parts[0].type: there is no type called 'c'", ""}}) {
+    const Json before = page_;
+    page_[Json::json_pointer(c.pointer)] = Json::parse(c.value);
+    if (std::string(c.pointer) == "/types/0/spacing") page_["types"][0]["scale"] = 1;
+    const std::string line = refusal();
+    EXPECT_NE(line.find(c.place), std::string::npos) << line;
+    EXPECT_NE(line.find(c.allowed), std::string::npos) << line;
+    page_ = before;
+  }
+}
+
+TEST_F(Ecogen, WhatIsNoJsonIsNamedByLineAndColumn) {
+  write_text(file("bad.json"), "{\n \"types\": [,]\n}");
+  const Outcome o = run_process({"ecogen", file("bad.json"), "-o", file("out.eco")});
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.err.find("line 2 column 12"), std::string::npos) << o.err;
+  EXPECT_EQ(line_count(o.err), 1u);
+  write_text(file("bad.json"), R"({"types": [], "types": []})");
+  EXPECT_NE(run_process({"ecogen", file("bad.json"), "-o", file("out.eco")}).err.find("'types' stands twice"),
+            std::string::npos);
+  write_text(file("bad.json"), std::string(100000, '['));
+  EXPECT_EQ(run_process({"ecogen", file("bad.json"), "-o", file("out.eco")}).status, 1);
+}
+
+TEST_F(Ecogen, EditsSetValues) {
+  ASSERT_EQ(run({"--edit", "types[0].count=7", "--edit", "types[1].name=fern"}).status, 0);
+  const Ecosystem eco = load();
+  EXPECT_EQ(eco.types[0].instances, 7u);
+  EXPECT_EQ(eco.types[1].name, "fern");
+  for (const char* wrong : {"types[9].count=1", "types[0]count", "=1", "types[x].count=1", "no.such=1"})
+    EXPECT_EQ(run({"--edit", wrong}).status, 2) << wrong;
+}
+
+TEST_F(Ecogen, ExtremesHaveADefinedResult) {
+  page_["types"][0]["count"] = 0;
+  page_["types"][1]["count"] = 1;
+  page_["types"][1]["head"] = 1e6;
+  page_["types"][1]["tilt"] = {{"pitch", 1e6}, {"roll", -1e6}};
+  ASSERT_EQ(run().status, 0);
+  EXPECT_EQ(load().instance_count(), 1u);
+  EXPECT_EQ(load().types.size(), 1u);  // a type without instances is left out
+  page_["types"] = Json::array();
+  ASSERT_EQ(run().status, 0);
+  EXPECT_EQ(load().instance_count(), 0u);
+  page_.erase("terrain");
+  page_.erase("materials");
+  ASSERT_EQ(run().status, 0);
+}
+
+TEST_F(Ecogen, ManyInAMetre) {
+  page_["terrain"] = Json{{"size", {1, 1}}};
+  page_["types"][0]["count"] = 100000;
+  page_["types"][0]["scale"] = 1e-6;
+  ASSERT_EQ(run().status, 0);
+  EXPECT_EQ(load().instance_count(), 100050u);
+}
+
+TEST_F(Ecogen, AOneTriangleTerrainIsPlantedOnTheTriangle) {
+  page_["terrain"] = Json::parse(
+      R"({"samples": [2, 2], "nurbs": {"degree": [1, 1], "points": [[[0,0,0],[0,0,0]],[[0,0,40],[40,8,40]]]}})");
+  ASSERT_EQ(run().status, 0) << run().err;
+  const Ecosystem eco = load();
+  EXPECT_EQ(eco.instance_count(), 250u);
+  for (const InstanceBlock& b : eco.blocks)
+    for (std::size_t i = b.first; i < b.first + b.count; ++i) {
+      const Double3 p = instance_of(eco, b, i).position;
+      EXPECT_LE(p.x, p.z + 1e-3);
+      EXPECT_NEAR(p.y, p.x / 5, 1e-4);
+    }
+}
+
+TEST_F(Ecogen, MapsOfOddChannelsAndDepthsSteerDensity) {
+  // Half of the ground is black, in a PNG of RGBA whose alpha says the opposite.
+  Image image{.width = 10, .height = 4, .rgba = std::vector<std::uint8_t>(160), .has_alpha = true};
+  for (std::size_t i = 0; i < 40; ++i) {
+    const bool west = i % 10 < 5;
+    for (std::size_t c = 0; c < 3; ++c) image.rgba[4 * i + c] = west ? 255 : 0;
+    image.rgba[4 * i + 3] = west ? 0 : 255;
+  }
+  for (const char* name : {"m.png", "m.tif", "m.exr"}) {
+    ASSERT_TRUE(write_image(file(name), image));
+    for (const char* channel : {"r", "a"}) {
+      if (std::string(name) == "m.exr" && channel[0] == 'r') continue;  // premultiplied: black everywhere
+      page_["types"][0]["density"] = {{"file", name}, {"channel", channel}};
+      const Outcome o = run();
+      ASSERT_EQ(o.status, 0) << o.err;
+      const Ecosystem eco = load();
+      for (const InstanceBlock& b : eco.blocks)
+        for (std::size_t i = b.first; i < b.first + b.count && eco.types[b.type].name == "a"; ++i)
+          EXPECT_EQ(instance_of(eco, b, i).position.x < 30.001, channel[0] == 'r') << name << channel;
+    }
+  }
+  page_["types"][0]["density"] = {{"file", "m.png"}, {"channel", 7}};
+  std::filesystem::remove(file("out.eco"));
+  EXPECT_NE(refusal().find("has 4 channels, none is '7'"), std::string::npos);
+  page_["types"][0]["density"] = "page.json";
+  EXPECT_NE(refusal().find("page.json"), std::string::npos);
+}
+
+TEST_F(Ecogen, WhatIsPackedNeedsNoOtherFile) {
+  ASSERT_EQ(run({"--pack", "--report", file("r.json")}).status, 0);
+  const Ecosystem eco = load();
+  EXPECT_TRUE(eco.types[0].uri.empty());
+  const auto tree = TreeFile::from_bytes(eco.types[0].packed.to_vector(), "packed");
+  ASSERT_TRUE(tree) << tree.error().what;
+  EXPECT_EQ(tree->verify(), std::vector<std::string>{});
+  EXPECT_FALSE(tree->has("PROV"));
+  EXPECT_NE(read_text(file("r.json")).find("material 'gold'"), std::string::npos);  // nothing is made of it
+}
+
+TEST_F(Ecogen, InstancesGoOutAndComeBackAsCsv) {
+  ASSERT_EQ(run({"--export", file("i.csv")}).status, 0);
+  const std::string csv = read_text(file("i.csv"));
+  EXPECT_EQ(line_count(csv), 251u);
+  page_["types"][0]["count"] = page_["types"][1]["count"] = 0;
+  const Ecosystem before = load();
+  const Outcome o = run({"--instances", file("i.csv"), "--export", file("j.csv")});
+  ASSERT_EQ(o.status, 0) << o.err;
+  const Ecosystem after = load();
+  ASSERT_EQ(after.instance_count(), 250u);
+  EXPECT_LE(after.position_error, 1e-4f);
+  EXPECT_EQ(before.types[0].instances, after.types[0].instances);
+  for (const auto& [text, what] : {std::pair("type,x,z\na,1\n", "line 2: 2 fields"),
+                                   {"type,x,zz\n", "column 'zz' is unknown"},
+                                   {"type,x\n", "no column 'z'"},
+                                   {"type,x,z\nq,1,1\n", "no type called 'q'"},
+                                   {"type,x,z\na,1,one\n", "z 'one'"},
+                                   {"type,x,z,scale\na,1,1,-2\n", "scale '-2'"},
+                                   {"type,x,z\n\"a,1,1\n", "quote"}}) {
+    write_text(file("bad.csv"), text);
+    const Outcome bad = run({"--instances", file("bad.csv")});
+    EXPECT_EQ(bad.status, 1);
+    EXPECT_NE(bad.err.find(what), std::string::npos) << bad.err;
+  }
+}
+
+TEST_F(Ecogen, ExportsAMapFromAbove) {
+  ASSERT_EQ(run({"--export", file("map.png")}).status, 0);
+  const auto image = read_image(file("map.png"));
+  ASSERT_TRUE(image);
+  EXPECT_EQ(image->width, 1024);
+  EXPECT_EQ(image->height, 683);  // 60 x 40 m
+  EXPECT_EQ(run({"--export", file("map.jpeg2")}).status, 2);
+}
+
+TEST_F(Ecogen, ExportsObjOfSmallForests) {
+  page_["types"][0]["count"] = 2;
+  page_["types"][1]["count"] = 1;
+  ASSERT_EQ(run({"--export", file("f.obj")}).status, 0);
+  const std::string obj = read_text(file("f.obj"));
+  for (const char* object : {"terrain", "a 1", "a 2", "b 3"})
+    EXPECT_NE(obj.find(std::string("o ") + object), std::string::npos) << object;
+}
+
+// The judge is the Khronos validator, where node and the npm package `gltf-validator` are.
+TEST_F(Ecogen, ExportsAGlbThatTheKhronosValidatorAccepts) {
+  ASSERT_EQ(run({"--export", file("f.glb")}).status, 0);
+  write_text(file("check.js"), R"(const v = require('gltf-validator'), fs = require('fs');
+v.validateBytes(new Uint8Array(fs.readFileSync(process.argv[2]))).then(r => {
+  // The images of these trees are names alone: that they cannot be read is no fault of the GLB.
+  const errors = r.issues.messages.filter(m => m.severity == 0 && m.code != 'IO_ERROR');
+  console.log(errors.length, JSON.stringify(errors).slice(0, 500)); });)");
+  const Outcome root = run_process({"/bin/sh", "-c", "npm root -g 2>/dev/null"});
+  const std::string modules = root.out.substr(0, root.out.find('\n'));
+  const char* own = std::getenv("NODE_PATH");
+  const Outcome o = run_process({"/bin/sh", "-c", "node '" + file("check.js") + "' '" + file("f.glb") + "'"},
+                                {"NODE_PATH=" + (own ? std::string(own) + ":" : "") + modules});
+  if (o.err.find("Cannot find module") != std::string::npos || o.status == 127)
+    GTEST_SKIP() << "node or the npm package gltf-validator is not installed";
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.out.substr(0, 2), "0 ") << o.out;
+}
+
+TEST_F(Ecogen, WhatNoFrameShowsIsLeftOut) {
+  write_text(
+      file("path.json"),
+      R"({"schema":"copse.path/1","keys":[{"time":0,"eye":[0,5,20],"target":[-10,5,20]},{"time":1,"eye":[10,5,20],"target":[0,5,20]}]})");
+  for (auto& type : page_["types"]) type["scale"] = 1e-4;  // little trees: what counts is where they stand
+  ASSERT_EQ(run({"--camera-path", file("path.json")}).status, 0);
+  const Ecosystem eco = load();
+  EXPECT_LT(eco.instance_count(), 120u);  // it looks west all the time
+  for (const InstanceBlock& b : eco.blocks)
+    for (std::size_t i = b.first; i < b.first + b.count; ++i)
+      EXPECT_LT(instance_of(eco, b, i).position.x, 25);
+  EXPECT_EQ(run({"--view-range", "5"}).status, 2);  // from where?
+}
+
+}  // namespace
+}  // namespace copse

@@ -1,0 +1,203 @@
+#include "tools/ecogen/instance_table.h"
+
+#include "lib/analysis/ecosystem/tilt.h"
+#include "lib/formats/instance_codec.h"
+#include "tools/common/command_line.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace copse::ecogen {
+namespace {
+
+constexpr std::array<std::string_view, 14> k_columns{
+    "type",          "x",      "y",   "z",     "head", "pitch", "roll", "scale", "trunk_material",
+    "leaf_material", "motion", "red", "green", "blue"};
+enum Column : std::size_t {
+  c_type,
+  c_x,
+  c_y,
+  c_z,
+  c_head,
+  c_pitch,
+  c_roll,
+  c_scale,
+  c_trunk,
+  c_leaf,
+  c_motion,
+  c_red,
+  c_green,
+  c_blue
+};
+
+// Quoted when it must be (RFC 4180).
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+// One row; `rest` begins behind it. None when a quote is never closed.
+std::optional<std::vector<std::string>> next_row(std::string_view& rest) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  std::size_t i = 0;
+  for (; i < rest.size(); ++i) {
+    const char c = rest[i];
+    if (quoted) {
+      if (c != '"')
+        fields.back() += c;
+      else if (i + 1 < rest.size() && rest[i + 1] == '"')
+        fields.back() += rest[++i];
+      else
+        quoted = false;
+    } else if (c == '"' && fields.back().empty()) {
+      quoted = true;
+    } else if (c == ',') {
+      fields.emplace_back();
+    } else if (c == '\n') {
+      break;
+    } else if (c != '\r') {
+      fields.back() += c;
+    }
+  }
+  if (quoted) return std::nullopt;
+  rest.remove_prefix(std::min(i + 1, rest.size()));
+  return fields;
+}
+
+class TableReader {
+ public:
+  TableReader(const std::string& file, Scene& scene) : file_(file), scene_(scene) {}
+
+  Result<void> read(std::string_view rest) {
+    auto header = next_row(rest);
+    if (!header) return wrong("a quote is never closed");
+    if (auto known = read_header(*header); !known) return known;
+    while (!rest.empty()) {
+      ++line_;
+      const auto row = next_row(rest);
+      if (!row) return wrong("a quote is never closed");
+      if (row->size() == 1 && row->front().empty()) continue;
+      if (row->size() != at_.size())
+        return wrong(fmt::format("{} fields, the first line has {}", row->size(), at_.size()));
+      if (auto added = add(*row); !added) return added;
+    }
+    return {};
+  }
+
+ private:
+  std::unexpected<Error> wrong(const std::string& what, const std::string& remedy = "mend the line") const {
+    return refuse(file_, fmt::format("line {}: {}", line_, what), remedy);
+  }
+
+  Result<void> read_header(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      const auto known = std::find(k_columns.begin(), k_columns.end(), name);
+      if (known == k_columns.end()) {
+        const std::string nearest = nearest_name(name, {k_columns.begin(), k_columns.end()});
+        return wrong(fmt::format("column '{}' is unknown", name),
+                     nearest.empty() ? "see docs/ecogen.md for their names"
+                                     : fmt::format("did you mean '{}'?", nearest));
+      }
+      at_.push_back(static_cast<std::size_t>(known - k_columns.begin()));
+    }
+    for (const Column c : {c_type, c_x, c_z})
+      if (std::find(at_.begin(), at_.end(), c) == at_.end())
+        return wrong(fmt::format("there is no column '{}'", k_columns[c]), "add it");
+    return {};
+  }
+
+  template <class Number>
+  Result<void> number(const std::string& text, Column column, double low, double high, Number& out) const {
+    if (text.empty()) return {};
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !(value >= low && value <= high) ||
+        (std::is_integral_v<Number> && value != std::floor(value)))
+      return wrong(fmt::format("{} '{}' is not allowed", k_columns[column], text),
+                   fmt::format("give it a {}number from {} to {}", std::is_integral_v<Number> ? "whole " : "",
+                               low, high));
+    out = static_cast<Number>(value);
+    return {};
+  }
+
+  Result<void> material(const std::string& name, Column column, std::uint32_t& out) const {
+    if (name.empty()) return {};
+    const auto at = std::find_if(scene_.materials.begin(), scene_.materials.end(),
+                                 [&](const Material& m) { return m.name == name; });
+    if (at == scene_.materials.end())
+      return wrong(fmt::format("{}: there is no material called '{}'", k_columns[column], name),
+                   "add it to the page");
+    out = static_cast<std::uint32_t>(at - scene_.materials.begin());
+    return {};
+  }
+
+  Result<void> add(const std::vector<std::string>& row) {
+    std::array<std::string, k_columns.size()> f;
+    for (std::size_t i = 0; i < row.size(); ++i) f[at_[i]] = row[i];
+    const auto type = std::find_if(scene_.types.begin(), scene_.types.end(),
+                                   [&](const TypeSource& t) { return t.name == f[c_type]; });
+    if (type == scene_.types.end())
+      return wrong(fmt::format("there is no type called '{}'", f[c_type]), "add it to the page");
+    PlantedSource p;
+    p.trunk_material = type->trunk_material;
+    p.leaf_material = type->leaf_material;
+    p.motion = type->motion;
+    if (f[c_x].empty() || f[c_z].empty()) return wrong("x or z is empty");
+    double y = 0;
+    Result<void> state;
+    const auto take = [&](Column c, double low, double high, auto& out) {
+      if (state) state = number(f[c], c, low, high, out);
+    };
+    take(c_x, -1e9, 1e9, p.x), take(c_y, -1e9, 1e9, y), take(c_z, -1e9, 1e9, p.z);
+    take(c_head, -1e9, 1e9, p.head), take(c_pitch, -1e9, 1e9, p.pitch), take(c_roll, -1e9, 1e9, p.roll);
+    take(c_scale, 1e-6, 1e6, p.scale);
+    take(c_motion, 0, 4294967295.0, p.motion);
+    take(c_red, 0, 255, p.tint[0]), take(c_green, 0, 255, p.tint[1]), take(c_blue, 0, 255, p.tint[2]);
+    if (state) state = material(f[c_trunk], c_trunk, p.trunk_material);
+    if (state) state = material(f[c_leaf], c_leaf, p.leaf_material);
+    if (!state) return state;
+    if (!f[c_y].empty()) p.y = y;
+    type->planted.push_back(p);
+    return {};
+  }
+
+  const std::string& file_;
+  Scene& scene_;
+  std::size_t line_ = 1;
+  std::vector<std::size_t> at_;  // which column of ours each of theirs is
+};
+
+}  // namespace
+
+std::string instances_csv(const Ecosystem& eco) {
+  std::string out = fmt::format("{}\n", fmt::join(k_columns, ","));
+  const auto material = [&](std::uint32_t m) {
+    return m == k_none ? std::string() : field(eco.materials[m].name);
+  };
+  for (const InstanceBlock& b : eco.blocks)
+    for (std::size_t k = b.first; k < b.first + b.count; ++k) {
+      const Instance i = instance_of(eco, b, k);
+      const Angles a = angles_of(i.rotation);
+      fmt::format_to(std::back_inserter(out), "{},{},{},{},{:.9g},{:.9g},{:.9g},{},{},{},{},{},{},{}\n",
+                     field(eco.types[i.type].name), i.position.x, i.position.y, i.position.z, a.head, a.pitch,
+                     a.roll, i.scale, material(i.trunk_material), material(i.leaf_material), i.motion,
+                     i.tint[0], i.tint[1], i.tint[2]);
+    }
+  return out;
+}
+
+Result<void> add_instances(std::string_view csv, const std::string& file, Scene& scene) {
+  return TableReader(file, scene).read(csv);
+}
+
+}  // namespace copse::ecogen

@@ -1,0 +1,12 @@
+// A forest from above, for people: the terrain as a shaded relief, every tree as a disc of its crown.
+#pragma once
+
+#include "lib/formats/ecosystem.h"
+#include "lib/formats/import/image.h"
+
+namespace copse::ecogen {
+
+// The longer side has 1024 pixels. +X is to the right, +Z down, as on the maps.
+Image map_picture(const Ecosystem& eco);
+
+}  // namespace copse::ecogen

@@ -1,0 +1,14 @@
+// What treeplay draws of an .eco: its terrain and the instances of all its trees as one scene.
+#pragma once
+
+#include "tools/treeplay/scene.h"
+
+namespace copse::treeplay {
+
+// Reads the ecosystem and the trees that it names or holds. Precondition: an .eco file.
+Result<void> take_ecosystem(Scene& scene, const std::filesystem::path& path, Context& context);
+
+// The light of the sky in a whole forest: of a cloud with as much leaf in each place, not of every leaf.
+SkyLight forest_sky(const Scene& scene);
+
+}  // namespace copse::treeplay
