@@ -79,6 +79,35 @@ TEST_F(Tool, HelpGroupsOptionsAndShowsDefaults) {
   EXPECT_NE(help.find("--progress auto|always|never"), std::string::npos) << help;
 }
 
+TEST_F(Tool, OptionGroupsAreOptionsLikeAllOthers) {
+  const std::string help = probe({"--help"}, {"COLUMNS=90"}).out;
+  EXPECT_LT(help.find("\nOptions:"), help.find("\nLevers:")) << help;
+  EXPECT_LT(help.find("\nLevers:"), help.find("\nCommon options:")) << help;
+  EXPECT_NE(help.find("--side left|right"), std::string::npos) << help;
+  EXPECT_NE(help.find("a side [right]"), std::string::npos) << help;
+  EXPECT_NE(probe({"--shaer", "1"}).err.find("did you mean --share?"), std::string::npos);
+  EXPECT_NE(probe({"--show", "--side", "left"}).out.find("side 0"), std::string::npos);
+  ASSERT_EQ(probe({"-o", file("a"), "--side", "left", "--report", file("r.json")}).status, 0);
+  const json options = json::parse(read_text(file("r.json")))["options"];
+  EXPECT_EQ(options["side"], "left");
+  EXPECT_TRUE(options.contains("share"));
+}
+
+TEST_F(Tool, ANumberIsFiniteAndInItsRangeAndAChoiceIsAName) {
+  for (const char* share : {"nan", "-nan", "inf", "-0.1", "1.1", "", "0,5", "0x1", "1e999"}) {
+    const Outcome o = probe({"--share", share});
+    EXPECT_EQ(o.status, 2) << share;
+    EXPECT_NE(o.err.find("is not a number from 0 to 1; see"), std::string::npos) << o.err;
+  }
+  for (const char* share : {"0", "1", "0.25", "1e-3"})
+    EXPECT_EQ(probe({"--share", share}).status, 0) << share;
+  for (const char* side : {"0", "1", "up", "", "LEFT"}) {
+    const Outcome o = probe({"--side", side});
+    EXPECT_EQ(o.status, 2) << side;
+    EXPECT_NE(o.err.find("not in {left,right}; see"), std::string::npos) << o.err;
+  }
+}
+
 TEST_F(Tool, HelpAndVersionAnswerWhateverElseIsWrong) {
   EXPECT_EQ(probe({"--nonsense", "--help"}).status, 0);
   const Outcome o = probe({"--level", "x", "--version"});

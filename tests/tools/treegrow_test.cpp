@@ -172,6 +172,24 @@ TEST(Treegrow, EverySampleGrows) {
   EXPECT_GE(count, 10u);
 }
 
+TEST(Treegrow, RefusesWhatCannotBeWrittenOrReadBeforeItGrows) {
+  const TemporaryFolder folder;
+  const auto expect_refused = [&](std::vector<std::string> command, int status, const std::string& part) {
+    command.insert(command.begin(), "treegrow");
+    const Outcome run = run_process(command);
+    EXPECT_EQ(run.status, status) << run.err;
+    EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+    EXPECT_EQ(line_count(run.err), 1u) << run.err;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  };
+  const std::string mesh = folder.file("t.obj");
+  expect_refused({"oak", "-o", mesh, "--truth", folder.file("t.txt")}, 2, "NAME.json or NAME.json.gz");
+  expect_refused({"oak", "-o", mesh, "--height", "nan"}, 2, "'nan' is not a number from 0.001 to 10000");
+  expect_refused({"oak", "-o", folder.file("no/t.obj")}, 3, "make the folder first");
+  expect_refused({"--params", "/dev/zero", "-o", mesh}, 3, "is not a file");
+  expect_refused({"--params", folder.path().string(), "-o", mesh}, 3, "is a folder");
+}
+
 TEST(Treegrow, TruthsPassTheScorersSelfTest) {
   const std::string scorer = COPSE_SOURCE_DIR "/../shared/tools/evaluate_hierarchy.py";
   if (!std::filesystem::exists(scorer)) {

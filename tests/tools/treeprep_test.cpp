@@ -204,6 +204,29 @@ TEST_F(Treeprep, PreparesAVineOfAHundredThousandSegments) {
   EXPECT_EQ(tree().radius_count(), 100001u);
 }
 
+TEST_F(Treeprep, HelpNamesEveryOption) {
+  const std::string help = run_process({"treeprep", "--help"}, {"COLUMNS=100"}).out;
+  for (const char* option :
+       {"--up y|z", "--scale N", "--weld EPS", "--strict", "--trunk PATTERN", "--leaf PATTERN",
+        "--skeleton auto|rings|surface", "--max-leaf-groups N", "--leaf-order group|terminal|random",
+        "--omit PART", "--only PART", "--compress none|zstd", "--report FILE"}) {
+    EXPECT_NE(help.find(option), std::string::npos) << option << "\n" << help;
+  }
+  EXPECT_EQ(help.find("[-1]"), std::string::npos) << help;  // what stands for "none" inside is no default
+  EXPECT_NE(help.find(" leaf-normals: normals of the leaves\n"), std::string::npos) << help;
+}
+
+TEST_F(Treeprep, RefusesNumbersThatAreNone) {
+  const std::string mesh = input(little_tree_obj());
+  for (const char* option : {"--scale", "--weld", "--max-leaf-groups"}) {
+    for (const char* value : {"nan", "inf", "-1", "1e999"}) {
+      expect_refused(prepare(mesh, {option, value}), 2, std::string(option) + ": '" + value + "' is not a");
+    }
+  }
+  expect_refused(prepare(mesh, {"--scale", "1e308"}), 1, "use a smaller --scale");
+  expect_refused(prepare(mesh, {"--up", "1"}), 2, "--up: 1 not in {y,z}");
+}
+
 TEST_F(Treeprep, RefusesWithOneLineAndWritesNothing) {
   expect_refused(prepare(folder_.file("missing.obj")), 3, "missing.obj");
   expect_refused(prepare(input("# nothing\n", "empty.obj")), 1, "empty.obj");

@@ -2,6 +2,8 @@
 
 #include "tools/common/help.h"
 #include "tools/common/jobs.h"
+#include "tools/common/option_groups.h"
+#include "tools/common/option_values.h"
 #include "tools/common/response_file.h"
 
 #include <algorithm>
@@ -14,8 +16,6 @@
 
 namespace copse {
 namespace {
-
-constexpr const char* k_common_group = "Common options";
 
 // The common options and what was made of them.
 struct Common {
@@ -36,18 +36,6 @@ bool parse_whole(std::string_view text, T& value) {
   return error == std::errc{} && end == text.data() + text.size() && !text.empty();
 }
 
-std::string check_jobs(const std::string& text) {
-  int value = 0;
-  if (parse_whole(text, value) && value >= 1 && value <= k_max_jobs) return {};
-  return fmt::format("'{}' is not a whole number from 1 to {}", text, k_max_jobs);
-}
-
-std::string check_seed(const std::string& text) {
-  std::uint64_t value = 0;
-  return parse_whole(text, value) ? std::string()
-                                  : fmt::format("'{}' is not a whole number from 0 to 2^64 - 1", text);
-}
-
 void add_common(CLI::App& app, Common& c) {
   const auto in_group = [](CLI::Option* option) { return option->group(k_common_group); };
   CommonOptions& v = c.values;
@@ -66,10 +54,10 @@ void add_common(CLI::App& app, Common& c) {
                      "worker threads; default: what the affinity mask, the cgroup and SLURM_CPUS_PER_TASK "
                      "allow; the output is the same for every N")
           ->type_name("N")
-          ->check(CLI::Validator(check_jobs, "", "")));
+          ->check(whole_number_from(1, k_max_jobs)));
   in_group(app.add_option("--seed", c.seed, "seeds every random choice")
                ->type_name("N")
-               ->check(CLI::Validator(check_seed, "", "")));
+               ->check(whole_number_from(0)));
   CLI::Option* report = in_group(
       app.add_option("--report", v.report, "what was done, how long it took and how wrong it is, as JSON")
           ->type_name("FILE"));
@@ -91,8 +79,7 @@ std::string see_help(const ToolInfo& info) {
 
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;
+  for (const CLI::Option* option : all_options(app)) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     for (const std::string& name : option->get_snames()) names.push_back("-" + name);
   }
@@ -123,7 +110,7 @@ std::string joined(const std::vector<std::string>& values) {
 // convert".
 std::string conversion_problem(const CLI::App& app, const CLI::ParseError& error) {
   const std::string what = error.what();
-  for (const CLI::Option* option : app.get_options()) {
+  for (const CLI::Option* option : all_options(app)) {
     if (option->count() == 0 || what.find(option->get_name() + " = ") == std::string::npos) continue;
     return fmt::format("{}: '{}' cannot be read as {}", option->get_name(), joined(option->results()),
                        option->get_type_name());
@@ -155,7 +142,7 @@ std::unexpected<Error> explain(const ToolInfo& info, const CLI::App& app, const 
 std::vector<std::pair<std::string, std::string>> options_for_report(const CLI::App& app,
                                                                     const Common& common) {
   std::vector<std::pair<std::string, std::string>> list;
-  for (const CLI::Option* option : app.get_options()) {
+  for (const CLI::Option* option : all_options(app)) {
     const auto& skip = common.unrecorded;
     if (!option->nonpositional() || std::find(skip.begin(), skip.end(), option) != skip.end()) continue;
     const std::string name =

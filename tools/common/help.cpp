@@ -1,6 +1,7 @@
 #include "tools/common/help.h"
 
 #include "tools/common/jobs.h"
+#include "tools/common/option_groups.h"
 #include "tools/common/response_file.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ constexpr std::size_t k_widest_label = 30;
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words;
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
+    const std::size_t end = std::min(text.find(' '), text.size());
     if (end > 0) words.emplace_back(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
@@ -60,8 +61,16 @@ std::vector<std::string> fill_lines(std::vector<std::string> words, std::size_t 
   return lines;
 }
 
+// Breaks lines where the text does, and where they grow too long.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
-  return fill_lines(words_of(text), width);
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    for (std::string& line : fill_lines(words_of(text.substr(0, end)), width))
+      lines.push_back(std::move(line));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
 }
 
 // CLI11 puts the checks of an option behind its type: "TEXT:{auto,always}". A closed set says more than the
@@ -79,7 +88,7 @@ std::string value_name(const CLI::Option& option) {
 }
 
 std::string ellipsis(const CLI::Option& option) {
-  return option.get_items_expected_max() > 1 ? "..." : "";
+  return option.get_items_expected_max() > 1 && !option.get_type_name().ends_with("...") ? "..." : "";
 }
 
 std::string label_of(const CLI::Option& option) {
@@ -133,10 +142,10 @@ void add_example(std::string& out, const std::string& command, const std::string
   for (const std::string& line : wrapped(meaning, width - 6)) out += "      " + line + "\n";
 }
 
-std::vector<const CLI::Option*> options_of(const CLI::App& app, const std::string& group, bool positional) {
+std::vector<const CLI::Option*> those(const std::vector<const CLI::Option*>& options, bool positional) {
   std::vector<const CLI::Option*> found;
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group() == group && option->nonpositional() != positional) found.push_back(option);
+  for (const CLI::Option* option : options) {
+    if (option->nonpositional() != positional) found.push_back(option);
   }
   return found;
 }
@@ -152,8 +161,7 @@ void add_group(std::string& out, const std::string& title, const std::vector<con
 
 std::string usage_line(const ToolInfo& info, const CLI::App& app) {
   std::string usage = "Usage: " + info.name + " [OPTIONS]";
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;
+  for (const CLI::Option* option : all_options(app)) {
     if (!option->nonpositional()) {
       const std::string name = option->get_name(true) + ellipsis(*option);
       usage += option->get_required() ? " " + name : " [" + name + "]";
@@ -171,9 +179,9 @@ std::string usage_line(const ToolInfo& info, const CLI::App& app) {
 std::string help_text(const ToolInfo& info, const CLI::App& app, int width) {
   const auto columns = static_cast<std::size_t>(std::clamp(width, k_narrowest, k_widest));
   std::size_t label = 0;
-  for (const CLI::Option* option : app.get_options()) {
+  for (const CLI::Option* option : all_options(app)) {
     const std::size_t size = label_of(*option).size();
-    if (!option->get_group().empty() && size <= k_widest_label) label = std::max(label, size);
+    if (size <= k_widest_label) label = std::max(label, size);
   }
   const std::size_t column = std::min(label + 4, columns * 2 / 5);
   std::string out;
@@ -181,15 +189,9 @@ std::string help_text(const ToolInfo& info, const CLI::App& app, int width) {
   out += "\n";
   const std::vector<std::string> usage = wrapped(usage_line(info, app), columns - 4);
   for (std::size_t i = 0; i < usage.size(); ++i) out += (i == 0 ? "" : "    ") + usage[i] + "\n";
-  std::vector<const CLI::Option*> positional;
-  for (const std::string& group : app.get_groups()) {
-    if (group.empty()) continue;  // hidden
-    const auto some = options_of(app, group, true);
-    positional.insert(positional.end(), some.begin(), some.end());
-  }
-  add_group(out, "Arguments", positional, column, columns);
-  for (const std::string& group : app.get_groups()) {
-    if (!group.empty()) add_group(out, group, options_of(app, group, false), column, columns);
+  add_group(out, "Arguments", those(all_options(app), true), column, columns);
+  for (const OptionGroup& group : option_groups(app)) {
+    add_group(out, group.title, those(group.options, false), column, columns);
   }
   out += "\nExamples:\n";
   for (const auto& [command, meaning] : info.examples) add_example(out, command, meaning, columns);

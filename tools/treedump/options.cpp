@@ -1,6 +1,9 @@
 #include "tools/treedump/options.h"
 
 #include "lib/formats/container.h"
+#include "tools/common/option_values.h"
+
+#include <climits>
 
 #include <CLI/CLI.hpp>
 
@@ -45,7 +48,7 @@ void add_options(CLI::App& app, DumpOptions& options) {
   CLI::Option* tolerance = app.add_option("--tolerance", options.tolerance,
                                           "with --diff: numbers that differ by no more than this are equal")
                                ->type_name("T")
-                               ->check(CLI::NonNegativeNumber)
+                               ->check(number_from(0))
                                ->group(what);
   const char* geometry = "Geometry";
   CLI::Option* export_to = app.add_option("--export", options.export_to, "the geometry as .obj, .ply or .glb")
@@ -54,16 +57,17 @@ void add_options(CLI::App& app, DumpOptions& options) {
   CLI::Option* draco = app.add_flag("--draco", options.draco, "compress a .glb with Draco")->group(geometry);
   CLI::Option* level = app.add_option("--level", options.level, "this level of detail; 0 is full")
                            ->type_name("N")
+                           ->check(whole_number_from(0, INT_MAX))
                            ->group(geometry);
   CLI::Option* ratio =
       app.add_option("--ratio", options.ratio, "the level with about this share of the triangles")
           ->type_name("R")
-          ->check(CLI::Range(0.0, 1.0))
+          ->check(number_between(0, 1))
           ->group(geometry);
   CLI::Option* error = app.add_option("--max-error", options.max_error,
                                       "the coarsest level with at most this error, in metres")
                            ->type_name("E")
-                           ->check(CLI::NonNegativeNumber)
+                           ->check(number_from(0))
                            ->group(geometry);
   app.add_option("-o,--output", options.output, "where to write JSON or text; - is stdout")
       ->type_name("FILE");

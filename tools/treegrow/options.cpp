@@ -1,5 +1,6 @@
 #include "tools/treegrow/options.h"
 
+#include "tools/common/option_values.h"
 #include "tools/treegrow/grow.h"
 #include "tools/treegrow/species.h"
 #include "tools/treegrow/treegrow.h"
@@ -51,11 +52,13 @@ void add_options(CLI::App& app, Options& o) {
   CLI::Option_group* tree = app.add_option_group("The tree");
   tree->add_option("--triangles", o.triangles,
                    "of the whole mesh, met within 2 %; default: what suits the species")
-      ->check(CLI::Range(std::uint64_t{1}, grow::k_most_triangles))
-      ->type_name("N");
+      ->check(whole_number_from(1, grow::k_most_triangles))
+      ->type_name("N")
+      ->default_str("");
   tree->add_option("--height", o.height, "m; default: of an ordinary specimen")
-      ->check(CLI::Range(1e-3, 1e4))
-      ->type_name("H");
+      ->check(number_between(1e-3, 1e4))
+      ->type_name("H")
+      ->default_str("");
   tree->add_option("--params", o.params, "a species of your own, as --print writes them")->type_name("FILE");
 
   CLI::Option_group* mesh = app.add_option_group("The mesh");

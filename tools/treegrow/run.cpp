@@ -2,14 +2,11 @@
 
 #include "lib/formats/export/export.h"
 #include "lib/formats/import/image.h"
+#include "lib/formats/mapped_file.h"
 #include "tools/treegrow/art.h"
 #include "tools/treegrow/join_faces.h"
 #include "tools/treegrow/species_toml.h"
 #include "tools/treegrow/treegrow.h"
-
-#include <fstream>
-#include <iterator>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -44,25 +41,17 @@ Result<Species> built_in(const std::string& name) {
               fmt::format("choose one of {}, or give --params FILE", fmt::join(species_names(), ", ")));
 }
 
-Result<std::string> text_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in || !text)
-    return fail(Fault::io, path.string(), "cannot be read", "check its name and its permissions");
-  return std::move(text).str();
-}
-
 Result<Species> chosen_species(const Options& options, Context& context) {
   if (options.params.empty() == options.species.empty())
     return fail(Fault::usage, "",
                 options.species.empty() ? "no species is named" : "a species is named twice",
                 "give SPECIES or --params FILE; --list shows the species");
   if (options.params.empty()) return built_in(options.species);
-  const auto text = text_of(options.params);
-  if (!text) return std::unexpected(text.error());
+  const auto file = MappedFile::open(options.params);
+  if (!file) return std::unexpected(file.error());
   context.read(options.params, true);
-  return species_from_toml(*text, options.params.string());
+  return species_from_toml({reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size()},
+                           options.params.string());
 }
 
 Result<Breaks> chosen_breaks(const Options& options) {
@@ -134,6 +123,20 @@ void tell(const Order& order, const Plan& plan, const Grown& grown, Context& con
   context.report().tables.push_back(std::move(table));
 }
 
+bool is_truth_name(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  return path == "-" || name.ends_with(".json") || name.ends_with(".json.gz");
+}
+
+// Before long work: what cannot be written is not grown.
+Result<void> check_outputs(const Options& options, Context& context) {
+  if (auto possible = context.check_output(options.output); !possible || options.truth.empty())
+    return possible;
+  if (is_truth_name(options.truth)) return context.check_output(options.truth);
+  return fail(Fault::usage, options.truth.string(), "its extension names no format of a truth file",
+              "name it NAME.json or NAME.json.gz");
+}
+
 Result<void> grow_and_write(const Options& options, Context& context) {
   if (options.output.empty())
     return fail(Fault::usage, "", "no output is named", "add -o NAME.obj, NAME.glb or NAME.ply");
@@ -143,6 +146,7 @@ Result<void> grow_and_write(const Options& options, Context& context) {
   if (!species) return std::unexpected(species.error());
   const auto breaks = chosen_breaks(options);
   if (!breaks) return std::unexpected(breaks.error());
+  if (auto possible = check_outputs(options, context); !possible) return possible;
   const Order order{std::move(*species), context.options().seed, options.height, options.triangles, *breaks};
 
   Result<Plan> plan = [&] {

@@ -1,5 +1,6 @@
 #include "tools/treeplay/options.h"
 
+#include "tools/common/option_values.h"
 #include "tools/treeplay/path_file.h"
 
 #include <array>
@@ -111,18 +112,21 @@ void add_options(CLI::App& app, Options& options) {
   pictures->add_option("--frames", options.frames, "write pictures of this name; %04d is the frame's number")
       ->type_name("PATTERN");
   pictures->add_option("--count", options.count, "how many frames (default: 1, along a path 120)")
-      ->check(CLI::Range(std::uint64_t{1}, k_most_frames))
+      ->check(whole_number_from(1, k_most_frames))
       ->type_name("N");
   pictures->add_option("--size", options.size, "of a picture or of the window, in pixels")
       ->type_name("WxH")
       ->capture_default_str();
   pictures
       ->add_option("--samples", options.samples, "a pixel: 1, 4, 16, 36 ... (default: pictures 16, window 4)")
-      ->type_name("N");
+      ->type_name("N")
+      ->default_str("");
   pictures->add_flag("--headless", options.headless,
                      "open no window; without --frames, draw and only measure");
   pictures->add_option("--stats", options.stats, "a CSV with a row a frame")->type_name("FILE");
-  pictures->add_option("--exit-after", options.exit_after, "close the window after N frames")->type_name("N");
+  pictures->add_option("--exit-after", options.exit_after, "close the window after N frames")
+      ->type_name("N")
+      ->default_str("");
 
   CLI::Option_group* camera = app.add_option_group("Camera");
   camera

@@ -1,11 +1,10 @@
 #include "tools/treeprep/options.h"
 
 #include "lib/formats/import/limits.h"
+#include "tools/common/option_values.h"
 #include "tools/treeprep/input.h"
 #include "tools/treeprep/parts.h"
 #include "tools/treeprep/run.h"
-
-#include <map>
 
 #include <CLI/CLI.hpp>
 
@@ -44,18 +43,19 @@ void add_options(CLI::App& app, Options& options) {
       ->type_name("FILE");
 
   CLI::Option_group* mesh = app.add_option_group("Reading the mesh");
-  mesh->add_option("--up", options.up, "the axis of the mesh that points up")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, UpAxis>{{"y", UpAxis::y}, {"z", UpAxis::z}}))
-      ->default_str("y");
+  add_choice<UpAxis>(*mesh, "--up", options.up, "the axis of the mesh that points up",
+                     {{"y", UpAxis::y}, {"z", UpAxis::z}});
   mesh->add_option("--scale", options.scale, "metres a unit of the mesh: 0.01 for centimetres")
-      ->check(CLI::PositiveNumber)
+      ->check(number_above(0))
+      ->type_name("N")
       ->capture_default_str();
   mesh->add_option(
           "--weld", options.weld,
           "positions closer than this share of the bounding box's diagonal are one (default: far below the "
           "shortest edges)")
-      ->check(CLI::Range(0.0, 1.0))
-      ->type_name("EPS");
+      ->check(number_between(0, 1))
+      ->type_name("EPS")
+      ->default_str("");
   mesh->add_flag("--strict", options.strict,
                  "refuse what breaks the thesis' model rules, naming every breach");
 
@@ -70,24 +70,20 @@ void add_options(CLI::App& app, Options& options) {
                    "globs over material, object and group names: these are leaves")
       ->delimiter(',')
       ->type_name("PATTERN,...");
-  parts
-      ->add_option("--skeleton", options.skeleton,
-                   "how the hierarchy is recovered: from rings, from the surface, or as fits")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Skeleton>{
-          {"auto", Skeleton::automatic}, {"rings", Skeleton::rings}, {"surface", Skeleton::surface}}))
-      ->default_str("auto");
+  add_choice<Skeleton>(
+      *parts, "--skeleton", options.skeleton,
+      "how the hierarchy is recovered: from rings, from the surface, or as fits",
+      {{"auto", Skeleton::automatic}, {"rings", Skeleton::rings}, {"surface", Skeleton::surface}});
   parts
       ->add_option("--max-leaf-groups", options.max_leaf_groups,
                    "merge the smallest leaf groups until there are at most N")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
-  parts
-      ->add_option("--leaf-order", options.leaf_order,
-                   "order of the leaves in a group: by distance from its centre or "
-                   "from its terminal radius, or at random")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, LeafOrder>{
-          {"group", LeafOrder::group}, {"terminal", LeafOrder::terminal}, {"random", LeafOrder::random}}))
-      ->default_str("group");
+      ->check(whole_number_from(1, UINT32_MAX))
+      ->type_name("N")
+      ->default_str("");
+  add_choice<LeafOrder>(
+      *parts, "--leaf-order", options.leaf_order,
+      "order of the leaves in a group: by distance from its centre or from its terminal radius, or at random",
+      {{"group", LeafOrder::group}, {"terminal", LeafOrder::terminal}, {"random", LeafOrder::random}});
 
   std::string names;
   for (const PartName& part : part_names()) names += std::string("\n") + part.name + ": " + part.what;
@@ -98,12 +94,9 @@ void add_options(CLI::App& app, Options& options) {
   output->add_option("--only", options.only, "leave out every optional part but these")
       ->delimiter(',')
       ->type_name("PART,...");
-  output
-      ->add_option("--compress", options.encoding,
-                   "how sections are stored: none (mapped in place) or zstd (small)")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Encoding>{{"none", Encoding::raw}, {"zstd", Encoding::zstd}}))
-      ->default_str("none");
+  add_choice<Encoding>(*output, "--compress", options.encoding,
+                       "how sections are stored: none (mapped in place) or zstd (small)",
+                       {{"none", Encoding::raw}, {"zstd", Encoding::zstd}});
 }
 
 }  // namespace copse::treeprep

@@ -1,4 +1,5 @@
 // A tool with nothing but the common options and a few levers, so that tests can see run_tool from outside.
+#include "tools/common/option_values.h"
 #include "tools/common/tool.h"
 
 #include <chrono>
@@ -17,7 +18,8 @@ struct ProbeOptions {
   std::filesystem::path input, output;
   std::string text = "probe\n";
   std::string fault;
-  double wait = 0;
+  double wait = 0, share = 0.5;
+  int side = 1;
   int level = 3;
   bool print = false;
   bool show = false;
@@ -49,6 +51,7 @@ Result<void> run(const ProbeOptions& options, Context& context) {
     const CommonOptions& c = context.options();
     context.print("jobs " + std::to_string(c.jobs) + " seed " + std::to_string(c.seed) + " level " +
                   std::to_string(options.level) + " text " + options.text + "\n");
+    context.print("side " + std::to_string(options.side) + "\n");
   }
   if (!options.output.empty()) {
     if (auto written = context.write(options.output, options.text); !written) return written;
@@ -78,6 +81,9 @@ int main(int argc, char** argv) {
         app.add_option("--level", options.level, "a number that does nothing");
         app.add_option("--fault", options.fault, "what goes wrong: memory, throw, int, refused, limit");
         app.add_option("--wait", options.wait, "seconds to wait")->type_name("S");
+        CLI::Option_group* levers = app.add_option_group("Levers");
+        levers->add_option("--share", options.share, "a share")->check(number_between(0, 1));
+        add_choice<int>(*levers, "--side", options.side, "a side", {{"left", 0}, {"right", 1}});
         app.add_flag("--print", options.print, "prints a line");
         app.add_flag("--show", options.show, "prints the options as they were understood");
         app.add_flag("--keep", options.keep, "waits 30 seconds with the output written but not yet visible");
