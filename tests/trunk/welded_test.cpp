@@ -67,8 +67,9 @@ TEST(Welded, TreeOfProctreeIsExact) {
 }
 
 // 72 000 vertices of a skin modifier, subdivided, with holes and edges of three triangles. The mesh has some
-// eighteen loops for each ring of the truth, so the truth is compared with the loops next to it.
-TEST(Welded, SkinOfAnOakHasALoopAtEachTrueRing) {
+// eighteen loops for each ring of the truth; a quarter of them stays, and the truth is compared with those
+// next to it.
+TEST(Welded, SkinOfAnOakKeepsALoopAtEachTrueRing) {
   const TrunkMesh mesh = real_trunk("dv_oak_skin.obj.gz", "wood");
   if (mesh.triangles.empty()) GTEST_SKIP();
   const auto truth = read_truth(k_trees / "truth" / "dv_oak_skin.json.gz");
@@ -76,7 +77,7 @@ TEST(Welded, SkinOfAnOakHasALoopAtEachTrueRing) {
   const Hierarchy h = recover_welded(mesh, all_triangles(mesh));
   EXPECT_EQ(breach(h, mesh.positions.size(), mesh.triangles.size()), "");
   EXPECT_EQ(explained(h), 1);
-  EXPECT_GT(h.radii.size(), 8000u);
+  EXPECT_LT(h.radii.size(), 2500u);
   std::size_t near = 0;
   std::vector<double> off;
   for (const TrueRadius& t : truth->radii) {
