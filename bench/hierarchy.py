@@ -35,7 +35,13 @@ def recover(mesh, folder, *options):
 def grown(species, breaks, folder):
     mesh, truth = folder / "tree.obj", folder / "truth.json"
     run("treegrow", species, "-o", str(mesh), "--truth", str(truth), "-q", *breaks)
-    return exactness(json.loads(truth.read_text()), json.loads(recover(mesh, folder).read_text()))
+    true, options = json.loads(truth.read_text()), []
+    if "z-up" in breaks:  # treeprep asks for --up z and stands the tree up; the truth is in the file's coordinates
+        options = ["--up", "z"]
+        for r in true["radii"]:
+            x, y, z = r["center"]
+            r["center"] = [x, z, -y]
+    return exactness(true, json.loads(recover(mesh, folder, *options).read_text()))
 
 
 def is_exact(e):
