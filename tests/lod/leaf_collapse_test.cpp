@@ -66,7 +66,7 @@ TEST(LeafCollapse, HoldsAreaAndCoverageTogether) {
   for (const double ratio : {0.25, 0.1, 0.02}) {
     const LodQuality q = judge.measure(drawn_state(s, step_with(s, std::size_t(ratio * 6000))));
     EXPECT_NEAR(q.area_ratio, 1, 0.02) << ratio;
-    EXPECT_NEAR(q.coverage_ratio, 1, ratio < 0.1 ? 0.1 : 0.05) << ratio;
+    EXPECT_NEAR(q.coverage_ratio, 1, ratio < 0.1 ? 0.15 : 0.05) << ratio;
     EXPECT_LE(q.hull_growth, 0.03) << ratio;
     EXPECT_GE(q.iou, 0.8) << ratio;
   }

@@ -19,7 +19,7 @@ struct LeafCollapseOptions {
   double largest = 0.36;  // of a leaf's area, as a share of the crown's cross-section: what fits inside
   double turning = 1.5;   // how much turning a leaf counts beside moving it
   double least_seen = 0.0005;  // what no one sees counts as if this share of it were seen
-  double emptiness = 1;        // how much reaching into empty space counts beside moving
+  double emptiness = 2;        // how much reaching into empty space counts beside moving
   int window = 8;              // neighbours looked at on each side
 };
 
