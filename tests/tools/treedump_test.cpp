@@ -284,7 +284,10 @@ TEST_F(Treedump, WrongUseIsOneLineAndStatusTwo) {
                                                     {file, "--level", "1"},
                                                     {file, "--arrays"},
                                                     {file, "--json", "--hierarchy"},
-                                                    {file, "--tolerance", "1"}}) {
+                                                    {file, "--tolerance", "1"},
+                                                    {file, file, "--diff", "--tolerance", "nan"},
+                                                    {file, "--export", file + ".obj", "--level", "-1"},
+                                                    {file, "--export", file + ".obj", "--draco"}}) {
     const Outcome o = dump(arguments);
     EXPECT_EQ(o.status, 2) << o.err;
     EXPECT_EQ(line_count(o.err), 1u) << o.err;

@@ -123,6 +123,10 @@ Result<Wanted> wanted_mesh(const TreeFile& file, const Tree& tree, const DumpOpt
 Result<std::vector<ExportedFile>> export_tree(const TreeFile& file, const DumpOptions& options) {
   const auto format = export_format_of(options.export_to.string());
   if (!format) return std::unexpected(format.error());
+  if (options.draco && *format != ExportFormat::glb) {
+    return fail(Fault::usage, options.export_to.string(), "only a .glb can be compressed with Draco",
+                "name it .glb, or drop --draco");
+  }
   auto tree = file.load();
   if (!tree) return std::unexpected(tree.error());
   auto wanted = wanted_mesh(file, *tree, options, *format);
