@@ -53,7 +53,11 @@ std::string draw_groups(const std::vector<LeafGroup>& groups, const Double3& ori
     const Double3 c = view.project(to_double(g.centre) + origin);
     svg += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{:.2f}"/>)", c.x, c.y, g.radius / view.pixel);
   }
-  return R"(<g fill="#1277c2" fill-opacity=".06" stroke="#1277c2" stroke-opacity=".7">)" + svg + "</g>";
+  // Spheres lie over each other: the more of them, the fainter, or all that is seen is their colour.
+  const double faint = std::min(1.0, 20.0 / static_cast<double>(groups.size()));
+  return fmt::format(
+      R"(<g fill="#1277c2" fill-opacity="{:.3f}" stroke="#1277c2" stroke-opacity="{:.3f}">{}</g>)",
+      0.06 * faint, std::max(0.7 * faint, 0.15), svg);
 }
 
 Result<std::vector<ReportPicture>> pictures(const Mesh& mesh, const Classification& classes,
