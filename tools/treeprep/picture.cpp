@@ -54,10 +54,10 @@ std::string draw_groups(const std::vector<LeafGroup>& groups, const Double3& ori
     svg += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{:.2f}"/>)", c.x, c.y, g.radius / view.pixel);
   }
   // Spheres lie over each other: the more of them, the fainter, or all that is seen is their colour.
-  const double faint = std::min(1.0, 20.0 / static_cast<double>(groups.size()));
+  const double faint = std::min(1.0, 40.0 / static_cast<double>(groups.size()));
   return fmt::format(
       R"(<g fill="#1277c2" fill-opacity="{:.3f}" stroke="#1277c2" stroke-opacity="{:.3f}">{}</g>)",
-      0.06 * faint, std::max(0.7 * faint, 0.15), svg);
+      0.06 * faint, std::max(0.7 * faint, 0.3), svg);
 }
 
 Result<std::vector<ReportPicture>> pictures(const Mesh& mesh, const Classification& classes,
