@@ -43,12 +43,17 @@ Result<FileRecord> hash_file(const std::filesystem::path& path) {
   const auto failed = [&] {
     return fail(Fault::io, path.string(), std::strerror(errno), "check the path and its permissions");
   };
+  FileRecord record{.path = path.string(), .bytes = 0, .hash = {}};
+  // Without opening it: a pipe that nobody writes any more would never open.
+  std::error_code unknown;
+  const auto type = std::filesystem::status(path, unknown).type();
+  if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character)
+    return record;
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return failed();
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
   XXH3_64bits_reset(state.get());
   std::vector<char> buffer(std::size_t{1} << 20);
-  FileRecord record{.path = path.string(), .bytes = 0, .hash = {}};
   for (;;) {
     const ssize_t n = ::read(file, buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR) continue;

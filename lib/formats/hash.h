@@ -24,7 +24,8 @@ std::string hash_of(std::span<const std::uint8_t> bytes);
 std::string hash_of(std::string_view bytes);
 std::string hash_of(const Pieces& pieces);  // of all of them as one
 
-// Path, size and hash of a file, read once from front to back in bounded memory.
+// Path, size and hash of a file, read once from front to back in bounded memory. What can be read only once,
+// a pipe or a device, is left to who reads it: its size is 0 and its hash empty.
 Result<FileRecord> hash_file(const std::filesystem::path& path);
 
 }  // namespace copse

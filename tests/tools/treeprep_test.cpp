@@ -261,6 +261,20 @@ TEST_F(Treeprep, ReportsWhatItFoundAndHowWrongItIs) {
   EXPECT_NE(dependencies.find("none.mtl"), std::string::npos);
 }
 
+TEST_F(Treeprep, ReadsAPipeOnceAndClaimsNoHashOfIt) {
+  input(little_tree_obj());
+  const Outcome o =
+      run_process({"/bin/sh", "-c",
+                   "cd '" + folder_.path().string() +
+                       "' && mkfifo mesh.pipe && (cat tree.obj > mesh.pipe &) && timeout 20 " +
+                       std::string(COPSE_BIN_DIR) + "/treeprep mesh.pipe -o out.stree --report r.json"});
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(tree().radius_count(), 5u);
+  EXPECT_EQ(read_text(folder_.file("out.stree")).find("xxh3:"), std::string::npos);
+  EXPECT_NE(read_text(folder_.file("out.stree")).find(R"("sources":[{"name":"mesh.pipe"}])"),
+            std::string::npos);
+}
+
 TEST_F(Treeprep, MakesOneTreeOfSeveralMeshes) {
   const std::string trunk = input(little_tree_obj(6, 5, 0), "trunk.obj");
   const std::string leaves = input("v 0 4 0\nv 1 4 0\nv 0 5 0\nusemtl leaf\nf 1 2 3\n", "leaves.obj");

@@ -36,8 +36,9 @@ Result<std::string> provenance(const Options& options, std::uint64_t seed) {
   for (const std::filesystem::path& path : options.inputs) {
     auto file = hash_file(path);
     if (!file) return std::unexpected(file.error());
-    out["sources"].push_back(
-        {{"name", path.filename().string()}, {"bytes", file->bytes}, {"hash", file->hash}});
+    nlohmann::ordered_json source{{"name", path.filename().string()}};
+    if (!file->hash.empty()) source.update({{"bytes", file->bytes}, {"hash", file->hash}});  // else a pipe
+    out["sources"].push_back(std::move(source));
   }
   out["options"] = options_json(options, seed);
   return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
