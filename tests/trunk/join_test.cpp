@@ -45,9 +45,20 @@ TEST(Join, LeavesABranchItsOwnRingWhereItBeginsAmidItsParent) {
   Limbs limbs;
   add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 1});
   add_limb(limbs, {0, 1, 0}, {1, 0, 0}, {1, 0.9, 0.8});
+  for (std::size_t r = 0; r < 6; ++r) limbs.normal[r] = r < 3 ? Double3{0, 1, 0} : Double3{1, 0, 0};
   LimbSegments segments(limbs);
   join(limbs, segments);
   EXPECT_NE(limbs.limb[0], limbs.limb[3]);
+}
+
+TEST(Join, MergesWithARingThatABranchGrowsFromWhereBothLieInOnePlane) {
+  Limbs limbs;
+  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 0.2});  // the last is a branch's
+  add_limb(limbs, {0, 1, 0}, {0, 1, 0}, {1, 0.9, 0.8});
+  for (Double3& n : limbs.normal) n = {0, 1, 0};
+  LimbSegments segments(limbs);
+  join(limbs, segments);
+  EXPECT_EQ(limbs.limb[0], limbs.limb[3]);
 }
 
 TEST(Join, DoesNotCloseALoopOfTwoTubesInOnePlace) {

@@ -43,6 +43,12 @@ bool coincide(const Limbs& limbs, std::uint32_t a, std::uint32_t b) {
          std::abs(limbs.diameter[a] - limbs.diameter[b]) <= k_join_tolerance * diameter;
 }
 
+// Whether two rings lie in one plane, as far as their planes are known.
+bool lie_alike(const Limbs& limbs, std::uint32_t a, std::uint32_t b) {
+  const double cosine = std::abs(dot(limbs.normal[a], limbs.normal[b]));
+  return cosine >= k_one_plane || length(limbs.normal[a]) == 0 || length(limbs.normal[b]) == 0;
+}
+
 // The ends at which their limbs clearly begin: no other end may be the base.
 std::vector<std::uint8_t> clear_starts(const Limbs& limbs, std::span<const std::uint32_t> ends) {
   std::vector<std::uint8_t> is_start = possible_bases(limbs, ends);
@@ -98,8 +104,8 @@ void join(Limbs& limbs, LimbSegments& segments) {
                        found);
     for (const Nearness& near : found) {
       for (const std::uint32_t ring : segments.rings[near.segment]) {
-        // A limb that begins amid another one is a branch of it, however thick.
-        if (!is_end[ring]) continue;
+        // A limb that begins amid another one, at an angle, is a branch of it, however thick.
+        if (!is_end[ring] && !lie_alike(limbs, end, ring)) continue;
         // Two limbs that begin in one place are siblings, and grow side by side from something else.
         if (is_start[end] && is_start[ring]) continue;
         if (coincide(limbs, end, ring)) joints.merge(end, ring);

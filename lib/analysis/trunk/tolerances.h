@@ -43,6 +43,8 @@ inline constexpr double k_lid_height = 0.125;
 // Share of the radius by which two rings that are one may differ in centre and, of the diameter, in diameter.
 // Files with six decimals round a twig of 5 mm at 2e-4 of its radius; segments are longer than a radius.
 inline constexpr double k_join_tolerance = 1e-3;
+// Cosine between the normals of rings that lie in one plane: 8 degrees.
+inline constexpr double k_one_plane = 0.99;
 // Ratio of the diameters of two ends that do not tell which is the base: tubes taper by more, rounding by
 // less.
 inline constexpr double k_like_thickness = 1.1;
