@@ -5,18 +5,18 @@
 set -euo pipefail
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/copse-lint
 mkdir -p "$cache"
-checks=() folders=(lib tools bench tests)
-if [ "$2" = names ]; then checks=(--checks=-*,readability-identifier-naming) folders=(lib tools); fi
-rules=$(cat <(printf '%s\n' "${checks[@]}") .clang-tidy $(git ls-files '*.h') | sha256sum | cut -c1-32)
+only=() folders=(lib tools bench tests)
+if [ "$2" = names ]; then only=(--checks=-*,readability-identifier-naming) folders=(lib tools); fi
+rules=$(cat <(printf '%s\n' "${only[@]}") .clang-tidy $(git ls-files '*.h') | sha256sum | cut -c1-32)
 export cache rules
-export checks="${checks[*]}"
+export tidy_checks="${only[*]}"
 
 check() {
   local key
   key=$(printf '%s %s' "$rules" "$(sha256sum <"$1")" | sha256sum | cut -c1-32)
   [ -e "$cache/$key" ] && return 0
   # shellcheck disable=SC2086  # none, or one word
-  clang-tidy-19 --quiet $checks -p build/release --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-deprecated-declarations "$1" 2>/dev/null || {
+  clang-tidy-19 --quiet $tidy_checks -p build/release --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-deprecated-declarations "$1" 2>/dev/null || {
     printf 'lint: %s breaks a rule of .clang-tidy (above)\n' "$1" >&2
     return 1
   }

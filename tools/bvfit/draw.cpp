@@ -1,7 +1,8 @@
+#include "tools/bvfit/draw.h"
+
 #include "lib/analysis/volumes/certify.h"
 #include "lib/analysis/volumes/volume_mesh.h"
 #include "lib/formats/export/export.h"
-#include "tools/bvfit/draw.h"
 #include "tools/picture/mesh_picture.h"
 
 #include <algorithm>

@@ -113,8 +113,9 @@ class Planter {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 1024), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
         Random random = stream(t, stream_place).fork(i);
-        const double x0 = area_.x0 + static_cast<double>(cells[i] % side) * w;
-        const double z0 = area_.z0 + static_cast<double>(cells[i] / side) * d;
+        const auto column = cells[i] % side, row = cells[i] / side;
+        const double x0 = area_.x0 + static_cast<double>(column) * w;
+        const double z0 = area_.z0 + static_cast<double>(row) * d;
         const double reach = types_[t].footprint * scale_of(t, i, {x0 + w / 2, z0 + d / 2});
         crowded[i] = 2 * reach > std::min(w, d);
         const double mx = std::min(reach, w / 2), mz = std::min(reach, d / 2);

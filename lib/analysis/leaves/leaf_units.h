@@ -1,8 +1,8 @@
 // leaf_units: which pieces of foliage are one leaf in an artist's eyes.
 //
 // Cards that cross in one centre, and cards laid back to back, are drawn to look like one leaf from several
-// sides. They are pieces of their own, but pair beyond doubt: as many triangles, about the same reach, the same
-// centre to a thousandth of their size, and most pieces with as many triangles do the same.
+// sides. They are pieces of their own, but pair beyond doubt: as many triangles, about the same reach, the
+// same centre to a thousandth of their size, and most pieces with as many triangles do the same.
 #pragma once
 
 #include "lib/analysis/leaves/pieces.h"

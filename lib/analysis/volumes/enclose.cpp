@@ -43,8 +43,8 @@ Float3 narrow(const Double3& p) {
   return {x, y, z};
 }
 
-// A direction whose components that are nothing but rounding (2^-46 of the largest) are 0: then what is flat in
-// a coordinate plane has no thickness.
+// A direction whose components that are nothing but rounding (2^-46 of the largest) are 0: then what is flat
+// in a coordinate plane has no thickness.
 Float3 narrow_direction(const Double3& d) {
   const double noise = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) * 0x1p-46;
   const auto cleaned = [&](double x) { return std::abs(x) <= noise ? 0 : x; };

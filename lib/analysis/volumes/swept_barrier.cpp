@@ -215,7 +215,7 @@ class Barrier {
 
   void reduce(const Derivatives& d, Vector& gradient, Matrix& hessian) const;
   double unknown(int i, const Vector& free) const {
-    const Tie& tie = ties_.of[i];
+    const Tie& tie = tied.of[i];
     double v = tie.constant;
     for (int k = 0; k < tie.terms; ++k) v += tie.factor[k] * free[tie.free[k]];
     return v;
@@ -228,8 +228,8 @@ class Barrier {
     return {unknown(turn_x, free), unknown(turn_y, free), unknown(turn_z, free)};
   }
 
-  Ties ties_;
-  Vector free_{};
+  Ties tied;
+  Vector values{};
 
  private:
   bool step(double weight, double& decrement);
@@ -237,12 +237,12 @@ class Barrier {
 
 void Barrier::reduce(const Derivatives& d, Vector& gradient, Matrix& hessian) const {
   for (int i = 0; i < k_unknowns; ++i) {
-    const Tie& a = ties_.of[i];
+    const Tie& a = tied.of[i];
     for (int m = 0; m < a.terms; ++m) {
       gradient[a.free[m]] += a.factor[m] * d.gradient[i];
       for (int j = 0; j < k_unknowns; ++j) {
         const double h = d.hessian[std::min(i, j)][std::max(i, j)];
-        const Tie& b = ties_.of[j];
+        const Tie& b = tied.of[j];
         for (int n = 0; n < b.terms; ++n) hessian[a.free[m]][b.free[n]] += a.factor[m] * b.factor[n] * h;
       }
     }
@@ -250,7 +250,7 @@ void Barrier::reduce(const Derivatives& d, Vector& gradient, Matrix& hessian) co
 }
 
 bool Barrier::step(double weight, double& decrement) {
-  const int n = ties_.free;
+  const int n = tied.free;
   Vector gradient, direction;
   double slope = 0;
   bool found = false;
@@ -269,11 +269,11 @@ bool Barrier::step(double weight, double& decrement) {
   }
   if (!found) return false;
   decrement = -slope / 2;
-  const double before = value(free_, weight);
+  const double before = value(values, weight);
   if (!std::isfinite(before)) return false;  // a point has come to lie on the surface, but for rounding
   double length = 1;
   for (int halvings = 0; halvings < 40; ++halvings, length /= 2) {
-    Vector next = free_;
+    Vector next = values;
     for (int i = 0; i < n; ++i) next[i] += length * direction[i];
     if (value(next, weight) <= before + k_least_slope * length * slope) {
       accept(next);
@@ -302,10 +302,10 @@ class Descent final : public Barrier {
   Descent(Swept kind, std::span<const Double3> points, const SweptFit& fit)
       : kind_(kind), points_(points), fit_(fit), q_(points.size()), trial_(points.size()) {
     const SweptRectangle& s = fit.rectangle;
-    if (kind == Swept::lozenge) ties_.variable(turn_x);
-    ties_.variable(turn_y), ties_.variable(turn_z);
+    if (kind == Swept::lozenge) tied.variable(turn_x);
+    tied.variable(turn_y), tied.variable(turn_z);
     if (kind == Swept::line) {  // no point is beyond an end
-      ties_.of[at_a0].constant = -k_line_end, ties_.of[at_a1].constant = k_line_end;
+      tied.of[at_a0].constant = -k_line_end, tied.of[at_a1].constant = k_line_end;
     } else {
       place(at_a0, s.a0), place(at_a1, s.a1);
     }
@@ -313,10 +313,10 @@ class Descent final : public Barrier {
     if (kind == Swept::lozenge) {
       place(at_b1, s.b1);
     } else {
-      ties_.of[at_b1] = ties_.of[at_b0];
+      tied.of[at_b1] = tied.of[at_b0];
     }
     place(at_h, s.h), place(at_r, s.r);
-    fit_.rectangle = rectangle(free_);
+    fit_.rectangle = rectangle(values);
     for (std::size_t i = 0; i < points.size(); ++i) q_[i] = into(fit.frame, points[i]);
   }
   const SweptFit& fit() const { return fit_; }
@@ -361,10 +361,10 @@ class Descent final : public Barrier {
   void accept(const Vector& free) override {
     const Double3 w = turn(free);
     fit_.rectangle = rectangle(free);
-    free_ = free;
+    values = free;
     if (w == Double3{}) return;
     fit_.frame = orthonormal(turned(fit_.frame, w * 0.5));
-    for (int k = 0; k < (kind_ == Swept::lozenge ? 3 : 2); ++k) free_[k] = 0;
+    for (int k = 0; k < (kind_ == Swept::lozenge ? 3 : 2); ++k) values[k] = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) q_[i] = into(fit_.frame, points_[i]);
   }
 
@@ -372,10 +372,10 @@ class Descent final : public Barrier {
   double singular() const override { return k_singular_descent; }
 
  private:
-  void place(int unknown, double v) { free_[ties_.variable(unknown)] = v; }
+  void place(int unknown, double v) { values[tied.variable(unknown)] = v; }
 
   void add_length(int low, int high, Derivatives& d) const {
-    const double g = 1 / (unknown(high, free_) - unknown(low, free_));
+    const double g = 1 / (unknown(high, values) - unknown(low, values));
     d.gradient[high] -= g, d.gradient[low] += g;
     d.add(high, high, g * g), d.add(low, low, g * g), d.add(low, high, -g * g);
   }
@@ -410,24 +410,24 @@ class Separating final : public Barrier {
  public:
   Separating(Swept kind, std::span<const Double3> points, const Separation& problem, double s)
       : kind_(kind), points_(points), problem_(problem), q_(points.size()) {
-    if (kind == Swept::lozenge) ties_.variable(turn_x);
-    ties_.variable(turn_y), ties_.variable(turn_z);
+    if (kind == Swept::lozenge) tied.variable(turn_x);
+    tied.variable(turn_y), tied.variable(turn_z);
     DoubleBox box;
     for (const Double3& p : points) box.grow(p);
     const Double3 middle = box.centre();
-    length_ = ties_.free++;
-    free_[length_] = s;
+    length_ = tied.free++;
+    values[length_] = s;
     side(at_a0, at_a1, problem.from.a, problem.along.a, middle.x);
     side(at_b0, at_b1, problem.from.b, problem.along.b, middle.y);
-    free_[ties_.variable(at_h)] = middle.z;
-    ties_.of[at_r].constant = problem.from.r;
-    ties_.of[at_r].add(length_, problem.along.r);
+    values[tied.variable(at_h)] = middle.z;
+    tied.of[at_r].constant = problem.from.r;
+    tied.of[at_r].add(length_, problem.along.r);
   }
 
   void read(SeparationState& state, double gap) const {
-    state.s = free_[length_];
-    state.turn = turn(free_) * 0.5;
-    state.rectangle = rectangle(free_);
+    state.s = values[length_];
+    state.turn = turn(values) * 0.5;
+    state.rectangle = rectangle(values);
     state.forces.clear();
     const SweptRectangle& s = state.rectangle;
     const double unit = gap / constraints();
@@ -453,8 +453,8 @@ class Separating final : public Barrier {
 
   void derive(double weight, bool, Vector& gradient, Matrix& hessian) override {
     Derivatives d;
-    const SweptRectangle s = rectangle(free_);
-    const Double3 g = turn(free_) * 0.5;
+    const SweptRectangle s = rectangle(values);
+    const Double3 g = turn(values) * 0.5;
     for (const Double3& p : points_) add_point(p, offset_from(s, linearly_turned(p, g)), s, d);
     for (int k = first(); k < 3; ++k) {
       const Double3 row = problem_.rows[k] * 0.5;
@@ -466,12 +466,12 @@ class Separating final : public Barrier {
       }
     }
     reduce(d, gradient, hessian);
-    const double inverse = 1 / free_[length_];
+    const double inverse = 1 / values[length_];
     gradient[length_] += weight - inverse;
     hessian[length_][length_] += inverse * inverse;
   }
 
-  void accept(const Vector& free) override { free_ = free; }
+  void accept(const Vector& free) override { values = free; }
   int constraints() const override { return static_cast<int>(points_.size()) + 7; }
   double singular() const override { return k_singular_separation; }
 
@@ -479,11 +479,11 @@ class Separating final : public Barrier {
   int first() const { return kind_ == Swept::lozenge ? 0 : 1; }
 
   void side(int low, int high, double from, double along, double middle) {
-    const int place = ties_.variable(low);
-    free_[place] = middle - (from + along * free_[length_]) / 2;
-    ties_.of[high].constant = from;
-    ties_.of[high].add(place, 1);
-    if (along != 0) ties_.of[high].add(length_, along);
+    const int place = tied.variable(low);
+    values[place] = middle - (from + along * values[length_]) / 2;
+    tied.of[high].constant = from;
+    tied.of[high].add(place, 1);
+    if (along != 0) tied.of[high].add(length_, along);
   }
 
   Swept kind_;

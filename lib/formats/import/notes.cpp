@@ -19,7 +19,9 @@ bool Notes::count(std::string_view kind, std::uint64_t by) {
 
 void Notes::first(std::string_view kind, std::string description) {
   for (Note& note : notes_) {
-    if (note.kind == kind && note.description.empty()) note.description = std::move(description);
+    if (note.kind != kind || !note.description.empty()) continue;
+    note.description = std::move(description);
+    return;
   }
 }
 
