@@ -26,6 +26,14 @@ TEST(Taper, ARoundedFootOfATreeMayBeItsBase) {
   EXPECT_EQ(possible, (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 0}));
 }
 
+TEST(Taper, TheTipOfAConeIsNoBaseHoweverNarrowTheFoot) {
+  Limbs limbs;
+  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {0.6, 0.82, 0.7, 0});   // read from its foot
+  add_limb(limbs, {9, 9, 0}, {0, -1, 0}, {0, 0.7, 0.82, 0.6});  // read from its tip
+  const auto possible = possible_bases(limbs, end_rings(limbs));
+  EXPECT_EQ(possible, (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 0, 0, 1}));
+}
+
 TEST(Taper, FollowsALimbThroughARootInItsMiddle) {
   Limbs limbs;
   add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 0.9, 0.8});

@@ -48,6 +48,9 @@ inline constexpr double k_one_plane = 0.99;
 // Ratio of the diameters of two ends that do not tell which is the base: tubes taper by more, rounding by
 // less.
 inline constexpr double k_like_thickness = 1.1;
+// Diameters of a ring up to which a point beyond it closes it as a lid or a rounded end does; farther out it
+// is the tip of a cone.
+inline constexpr double k_blunt_point = 1;
 // Depth of the lowest point below y = 0, as a share of the trunk's height, up to which y = 0 is the ground.
 // Roots are sunk by a few per cent; a model that is centred on the origin is at 1/2.
 inline constexpr double k_ground_depth = 0.2;
