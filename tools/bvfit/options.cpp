@@ -2,8 +2,7 @@
 
 #include "lib/formats/import/limits.h"
 #include "tools/bvfit/run.h"
-
-#include <map>
+#include "tools/common/option_values.h"
 
 #include <CLI/CLI.hpp>
 
@@ -61,28 +60,27 @@ void add_options(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->type_name("PART,...")
       ->default_str("whole");
-  what->add_option("--quality", options.quality,
-                   "fast: closed forms; balanced: a global search for the least volume; exact: and a proof "
-                   "of how near it comes")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, FitQuality>{
-          {"fast", FitQuality::fast}, {"balanced", FitQuality::balanced}, {"exact", FitQuality::exact}}))
-      ->default_str("balanced");
+  add_choice<FitQuality>(
+      *what, "--quality", options.quality,
+      "fast: closed forms; balanced: a global search for the least volume; exact: and a proof of how near it "
+      "comes",
+      {{"fast", FitQuality::fast}, {"balanced", FitQuality::balanced}, {"exact", FitQuality::exact}})
+      ->type_name("fast|balanced|exact");
   what->add_option("--budget", options.budget,
                    "the best within this time a set of points; what is found in time depends on the machine")
-      ->check(CLI::PositiveNumber)
+      ->check(number_above(0))
       ->type_name("SECONDS");
 
   CLI::Option_group* choice = app.add_option_group("Choosing");
-  choice
-      ->add_option("--choose", options.choose,
-                   "by the least volume, volume times the cost of a test, the proportions of the box alone, "
-                   "or the expected cost of test and needless content")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, Criterion>{{"volume", Criterion::volume},
-                                                                   {"weighted", Criterion::weighted},
-                                                                   {"aspect", Criterion::aspect},
-                                                                   {"expected", Criterion::expected}}))
-      ->default_str("volume");
+  add_choice<Criterion>(
+      *choice, "--choose", options.choose,
+      "by the least volume, volume times the cost of a test, the proportions of the box alone, "
+      "or the expected cost of test and needless content",
+      {{"volume", Criterion::volume},
+       {"weighted", Criterion::weighted},
+       {"aspect", Criterion::aspect},
+       {"expected", Criterion::expected}})
+      ->type_name("volume|weighted|aspect|expected");
   choice
       ->add_option("--costs", options.costs,
                    "of a test: table (counted operations) or measured (on this machine: then the choice "
@@ -92,13 +90,13 @@ void add_options(CLI::App& app, Options& options) {
   choice
       ->add_option("--content-cost", options.expected.content,
                    "with --choose expected: what a needless hit costs, in tests of a sphere")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from(0))
       ->capture_default_str()
       ->type_name("C");
   choice
       ->add_option("--ray-share", options.expected.rays,
                    "with --choose expected: share of the tests that are rays; the others are frustum planes")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_between(0, 1))
       ->capture_default_str()
       ->type_name("P");
   choice
@@ -121,7 +119,7 @@ void add_options(CLI::App& app, Options& options) {
       ->add_option("--sway", options.sway,
                    "also fits the envelope of everywhere that the parts come to when every link of the "
                    "tree's hierarchy turns by up to this angle")
-      ->check(CLI::Range(0.0, 90.0))
+      ->check(number_between(0, 90))
       ->type_name("DEGREES");
 
   CLI::Option_group* more = app.add_option_group("More");

@@ -1,10 +1,10 @@
 #include "tools/lodbake/options.h"
 
+#include "tools/common/option_values.h"
 #include "tools/lodbake/run.h"
 
 #include <algorithm>
 #include <functional>
-#include <map>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -53,13 +53,13 @@ void add_options(CLI::App& app, Options& options) {
                                     "levels with these shares of the triangles, descending")
                        ->delimiter(',')
                        ->type_name("R,...")
-                       ->check(CLI::Range(0.0, 1.0));
+                       ->check(number_between(0, 1));
   levels
       ->add_option("--discrete-error", options.discrete_error,
                    "the coarsest levels within these errors in metres, ascending")
       ->delimiter(',')
       ->type_name("E,...")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from(0))
       ->excludes(discrete);
   levels->add_flag("--continuous", options.continuous,
                    "every level in between, as a schedule over both spectra");
@@ -68,24 +68,24 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   levels->add_option("--near", options.near, "full detail up to this distance in metres")
       ->type_name("D")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from(0));
   levels->add_option("--medium", options.medium, "the second level begins here")
       ->type_name("D")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from(0));
   levels->add_option("--far", options.far, "the last level begins here")
       ->type_name("D")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from(0));
   levels
       ->add_option("--hysteresis", options.hysteresis,
                    "switching back happens this share of the distance later, percent")
       ->type_name("P")
-      ->check(CLI::Range(0.0, 99.0))
+      ->check(number_between(0, 99))
       ->capture_default_str();
   levels
       ->add_option("--max-error", options.max_error,
                    "refuse (exit status 4) when a discrete level errs by more, metres")
       ->type_name("E")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from(0));
 
   CLI::Option_group* methods = app.add_option_group("How they are made");
   methods
@@ -95,33 +95,30 @@ void add_options(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->type_name("NAME,...")
       ->check(CLI::IsMember({"radii", "edges", "collapse", "prune", "lines-points"}));
-  methods->add_option("--trunk", options.trunk, "by radii (rings, sides, ribbons) or by edge collapses")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, TrunkMethod>{{"radii", TrunkMethod::radii}, {"edges", TrunkMethod::edges}}))
-      ->default_str("radii");
-  methods
-      ->add_option(
-          "--foliage", options.foliage,
-          "leaves become one bigger, two at a time, or vanish in stratified random order, cell by cell")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, FoliageMethod>{
-          {"collapse", FoliageMethod::collapse}, {"prune", FoliageMethod::prune}}))
-      ->default_str("collapse");
+  add_choice<TrunkMethod>(*methods, "--trunk", options.trunk,
+                          "by radii (rings, sides, ribbons) or by edge collapses",
+                          {{"radii", TrunkMethod::radii}, {"edges", TrunkMethod::edges}})
+      ->type_name("radii|edges");
+  add_choice<FoliageMethod>(
+      *methods, "--foliage", options.foliage,
+      "leaves become one bigger, two at a time, or vanish in stratified random order, cell by cell",
+      {{"collapse", FoliageMethod::collapse}, {"prune", FoliageMethod::prune}})
+      ->type_name("collapse|prune");
   methods
       ->add_option(
           "--cells", options.cells,
           "of --foliage prune: at most so many cells, each with its visibility from --views directions")
-      ->check(CLI::Range(1, 1 << 20))
+      ->check(whole_number_from(1, 1 << 20))
       ->type_name("N")
       ->capture_default_str();
   methods->add_flag("--lines-points", options.lines_points,
                     "refuse a tree that lacks what lines and points are drawn from (segments by diameter, "
                     "accumulated lengths, leaf centres, groups in order)");
-  methods
-      ->add_option("--divide", options.division,
-                   "triangles between trunk and leaves: as the picture is best, or the same share to each")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Division>{{"picture", Division::picture}, {"even", Division::even}}))
-      ->default_str("picture");
+  add_choice<Division>(
+      *methods, "--divide", options.division,
+      "triangles between trunk and leaves: as the picture is best, or the same share to each",
+      {{"picture", Division::picture}, {"even", Division::even}})
+      ->type_name("picture|even");
 
   CLI::Option_group* measuring = app.add_option_group("How wrong they are (into --report and --html)");
   measuring->add_flag("--measure", options.measure,
@@ -129,19 +126,18 @@ void add_options(CLI::App& app, Options& options) {
   measuring->add_flag("--sweep", options.sweep,
                       "the same for every method, and for meshoptimizer at the same triangle counts");
   measuring->add_option("--views", options.views, "directions from which is measured, at least")
-      ->check(CLI::Range(1, 642))
+      ->check(whole_number_from(1, 642))
       ->type_name("N")
       ->capture_default_str();
 
   CLI::Option_group* file = app.add_option_group("How they are stored");
-  file->add_option("--encode", options.coding.coding,
-                   "fast: exact, as it lies in memory; small: quantised and compressed")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, SpectrumCoding>{
-          {"fast", SpectrumCoding::fast}, {"small", SpectrumCoding::small}}))
-      ->default_str("fast");
+  add_choice<SpectrumCoding>(*file, "--encode", options.coding.coding,
+                             "fast: exact, as it lies in memory; small: quantised and compressed",
+                             {{"fast", SpectrumCoding::fast}, {"small", SpectrumCoding::small}})
+      ->type_name("fast|small");
   file->add_option("--position-bits", options.coding.position_bits,
                    "of --encode small: bits of the longest side of the box")
-      ->check(CLI::Range(8, 16))
+      ->check(whole_number_from(8, 16))
       ->type_name("N")
       ->capture_default_str();
 }
