@@ -3,8 +3,8 @@
 //
 // Source: digest 002, section 6 (the dissertation's section 6.3): with sorted extents L >= M >= S, ratio2 =
 // L / M, ratio3 = M / S, ratio1 = ratio2 / ratio3; a binary tree of at most three comparisons, whose
-// thresholds are the user's or tuned. Its own thresholds are lost with its figure; ours agree with the
-// smallest volume as often as they can on the reference models (docs/volumes.md).
+// thresholds are the user's or tuned. Its own thresholds are lost with its figure; the default ones are a
+// plain guess: `bvfit --tune` finds those that agree best with the smallest volumes of given parts.
 #pragma once
 
 #include "lib/formats/result.h"
