@@ -35,10 +35,10 @@ TEST_F(Cgroup, WithoutQuotaSaysNothing) {
 }
 
 TEST_F(Cgroup, Version2TakesTheSmallestQuotaOnTheWayUp) {
-  file("proc/self/cgroup", "0::/farm/job/task");
-  file("sys/fs/cgroup/farm/cpu.max", "800000 100000");
-  file("sys/fs/cgroup/farm/job/cpu.max", "250000 100000");
-  file("sys/fs/cgroup/farm/job/task/cpu.max", "max 100000");
+  file("proc/self/cgroup", "0::/batch/job/task");
+  file("sys/fs/cgroup/batch/cpu.max", "800000 100000");
+  file("sys/fs/cgroup/batch/job/cpu.max", "250000 100000");
+  file("sys/fs/cgroup/batch/job/task/cpu.max", "max 100000");
   EXPECT_EQ(cgroup_cpus(root_), 3);  // 2.5, rounded up
 }
 
