@@ -87,6 +87,15 @@ TEST(Html, ShowsEveryPartOfAReport) {
   }
 }
 
+TEST(Html, DrawingThePageIsNoPartOfTheTimeNorOfTheRate) {
+  Report r = rich_report();
+  r.seconds = 4;
+  r.stages.push_back({"draw", 3, 0, ""});
+  const std::string html = to_html(r);
+  EXPECT_NE(html.find("<dt>time</dt><dd>1 s</dd><dd>and 3 s to draw this page</dd>"), std::string::npos);
+  EXPECT_NE(html.find("<dd>20 k a second</dd>"), std::string::npos);
+}
+
 TEST(Html, APartThatIsEmptyHasNoHeading) {
   Report empty;
   empty.tool = "treedump";

@@ -61,9 +61,24 @@ TEST_F(Lodbake, EveryLevelCanBeTakenFromTheFile) {
 
 TEST_F(Lodbake, TheTreeItselfIsCopiedUntouched) {
   ASSERT_EQ(bake({}).status, 0);
-  const Outcome same = run_process({"treedump", tree_, out_, "--diff"});
-  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  const Outcome diff = run_process({"treedump", tree_, out_, "--diff", "-q"});
+  EXPECT_EQ(diff.out,
+            "LSTR (level-of-detail spectrum of the trunk): only in the second file\n"
+            "LSLV (level-of-detail spectrum of the leaves): only in the second file\n"
+            "LSLD (levels of detail): only in the second file\n")
+      << diff.err;
   EXPECT_EQ(run_process({"treedump", out_, "--verify", "-q"}).status, 0);
+}
+
+TEST_F(Lodbake, DiffTellsOtherLevelsApart) {
+  ASSERT_EQ(bake({"--discrete", "0.5,0.1"}).status, 0);
+  const std::string before = folder_.file("before.stree");
+  std::filesystem::rename(out_, before);
+  ASSERT_EQ(bake({"--discrete", "0.4,0.1"}).status, 0);
+  const Outcome diff = run_process({"treedump", before, out_, "--diff", "-q"});
+  EXPECT_EQ(diff.status, 1);
+  EXPECT_TRUE(diff.out.starts_with("LSLD (levels of detail): ")) << diff.out;
+  EXPECT_NE(diff.out.find("bytes differ"), std::string::npos) << diff.out;
 }
 
 TEST_F(Lodbake, TheSameBytesEveryTimeAndForEveryNumberOfThreads) {

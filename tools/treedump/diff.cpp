@@ -4,6 +4,7 @@
 #include "tools/treedump/views.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -13,6 +14,9 @@
 
 namespace copse {
 namespace {
+
+// Sections that are compared field by field, or told as notes.
+constexpr std::string_view k_records[] = {"HEAD", "OMIT", "PROV", "MATL", "MNAM", "TEXR", "TNAM", "TDAT"};
 
 // How a field of an array's elements differs: in how many elements, and by how much at most.
 struct FieldDifference {
@@ -116,9 +120,9 @@ void diff_array(std::string_view name, const Array<T>& a, const Array<T>& b, dou
                               count_text(a.size()), fields_text(comparison)));
 }
 
-// Every array of the first tree against its like in the second.
-void diff_arrays(const TreeFile& file_a, const Tree& a, const TreeFile& file_b, const Tree& b,
-                 double tolerance, std::vector<std::string>& lines) {
+// Every array of the first tree against its like in the second; returns the names of all that there are.
+std::vector<std::string_view> diff_arrays(const TreeFile& file_a, const Tree& a, const TreeFile& file_b,
+                                          const Tree& b, double tolerance, std::vector<std::string>& lines) {
   const Head head_a{.header = a.header, .counts = file_a.counts()};
   const Head head_b{.header = b.header, .counts = file_b.counts()};
   std::vector<std::string_view> seen;
@@ -138,7 +142,9 @@ void diff_arrays(const TreeFile& file_a, const Tree& a, const TreeFile& file_b, 
     if (!array.empty() && std::find(seen.begin(), seen.end(), name) == seen.end()) {
       lines.push_back(fmt::format("{} ({}): only in the second file", name, describe_section(name)));
     }
+    seen.push_back(name);
   });
+  return seen;
 }
 
 template <class T>
@@ -190,9 +196,9 @@ void diff_materials(const Tree& a, const Tree& b, double tolerance, std::vector<
   if (a.leaves.material != b.leaves.material) lines.push_back("material of the leaves differs");
 }
 
-void note_storage(const TreeFile& a, const TreeFile& b, std::vector<std::string>& notes) {
+void note_storage(const Container& a, const Container& b, std::vector<std::string>& notes) {
   for (const SectionInfo& first : a.sections()) {
-    const SectionInfo* second = b.container().find(first.name);
+    const SectionInfo* second = b.find(first.name);
     if (second == nullptr || (first.encoding == second->encoding && first.stored_size == second->stored_size))
       continue;
     notes.push_back(fmt::format("{}: stored {} in {}, then {} in {}", first.name,
@@ -218,8 +224,23 @@ Result<Difference> diff_files(const TreeFile& a, const TreeFile& b, double toler
   diff_record("header", a.header(), b.header(), tolerance, difference.lines);
   diff_materials(*tree_a, *tree_b, tolerance, difference.lines);
   if (a.omitted() != b.omitted()) difference.lines.push_back("different sections were left out on purpose");
-  diff_arrays(a, *tree_a, b, *tree_b, tolerance, difference.lines);
+  // Volumes, levels of detail and whatever else tools have added have no fields here: their bytes count.
+  std::vector<std::string_view> compared = diff_arrays(a, *tree_a, b, *tree_b, tolerance, difference.lines);
+  compared.insert(compared.end(), std::begin(k_records), std::end(k_records));
+  auto others = diff_sections(a.container(), b.container(), compared);
+  if (!others) return std::unexpected(others.error());
+  difference.lines.insert(difference.lines.end(), others->begin(), others->end());
   if (tree_a->provenance != tree_b->provenance) difference.notes.push_back("provenance differs");
+  note_storage(a.container(), b.container(), difference.notes);
+  return difference;
+}
+
+Result<Difference> diff_containers(const Container& a, const Container& b) {
+  constexpr std::array<std::string_view, 1> k_told_as_note{"PROV"};
+  Difference difference;
+  auto lines = diff_sections(a, b, k_told_as_note);
+  if (!lines) return std::unexpected(lines.error());
+  difference.lines = std::move(*lines);
   note_storage(a, b, difference.notes);
   return difference;
 }

@@ -107,12 +107,28 @@ std::string failures_json(const DumpOptions& options, const std::vector<std::vec
   return json.take();
 }
 
-Result<void> show_difference(const DumpOptions& options, Context& context) {
-  const auto a = TreeFile::open(options.files[0]);
+template <class File>
+Result<std::pair<File, File>> open_both(const DumpOptions& options) {
+  auto a = File::open(options.files[0]);
   if (!a) return std::unexpected(a.error());
-  const auto b = TreeFile::open(options.files[1]);
+  auto b = File::open(options.files[1]);
   if (!b) return std::unexpected(b.error());
-  const auto difference = diff_files(*a, *b, options.tolerance);
+  return std::pair{std::move(*a), std::move(*b)};
+}
+
+Result<Difference> find_difference(const DumpOptions& options) {
+  if (is_ecosystem(options.files[0]) && is_ecosystem(options.files[1])) {
+    const auto both = open_both<Container>(options);
+    if (!both) return std::unexpected(both.error());
+    return diff_containers(both->first, both->second);
+  }
+  const auto both = open_both<TreeFile>(options);
+  if (!both) return std::unexpected(both.error());
+  return diff_files(both->first, both->second, options.tolerance);
+}
+
+Result<void> show_difference(const DumpOptions& options, Context& context) {
+  const auto difference = find_difference(options);
   if (!difference) return std::unexpected(difference.error());
   std::string text;
   for (const std::string& line : difference->lines) text += line + "\n";

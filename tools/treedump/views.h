@@ -6,7 +6,9 @@
 #include "tools/treedump/dump.h"
 #include "tools/treedump/options.h"
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace copse {
@@ -35,5 +37,10 @@ struct Difference {
   std::vector<std::string> notes;  // provenance and storage
 };
 Result<Difference> diff_files(const TreeFile& a, const TreeFile& b, double tolerance);
+// The same of two files that are no trees (.eco): section by section.
+Result<Difference> diff_containers(const Container& a, const Container& b);
+// One line for every section, but those in `except`, that only one file has or whose decoded bytes differ.
+Result<std::vector<std::string>> diff_sections(const Container& a, const Container& b,
+                                               std::span<const std::string_view> except);
 
 }  // namespace copse
