@@ -61,10 +61,13 @@ void check_sets(const TreeVolumes& v, const TreeCounts& counts, Findings& findin
   for (std::size_t i = 0; i < v.sets.size(); ++i) {
     const VolumeSet& s = v.sets[i];
     const auto part = static_cast<std::uint32_t>(s.part), motion = static_cast<std::uint32_t>(s.motion);
-    if (part >= k_volume_parts || motion > 1 || s.reserved != 0) {
+    if (part >= k_volume_parts || motion > 1) {
       findings.add("VSET", i, "an unknown part or motion", fmt::format("{} {}", part, motion));
       continue;
     }
+    const float most = s.motion == VolumeMotion::envelope ? 180 : 0;
+    if (!(s.sway >= 0 && s.sway <= most))
+      findings.add("VSET", i, "an angle of sway that is out of range", fmt::format("{}", s.sway));
     const std::uint64_t limit = limit_of(s.part, counts, v.nodes.size());
     if (limit == 0 ? s.index != k_none : s.index >= limit) {
       findings.add("VSET", i, "index of the part out of range", fmt::format("{}", s.index));

@@ -45,7 +45,7 @@ struct VolumeSet {
   std::uint32_t first = 0, count = 0;  // its volumes
   std::uint32_t chosen = 0;            // which of them (0 .. count - 1) to test with
   std::uint32_t points = 0;            // how many vertices it holds
-  std::uint32_t reserved = 0;
+  float sway = 0;  // of an envelope, degrees: how far every link turns (motion_envelope.h); 0: not known
   friend bool operator==(const VolumeSet&, const VolumeSet&) = default;
 };
 static_assert(sizeof(VolumeSet) == 32);

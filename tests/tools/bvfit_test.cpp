@@ -6,6 +6,7 @@
 #include "tests/formats/tree_maker.h"
 #include "tests/tools/process.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -300,6 +301,68 @@ TEST_F(Bvfit, SwayingPartsHaveASecondVolumeRoundTheirMotion) {
   EXPECT_GT(envelope, rest * 1.05);
 }
 
+TEST_F(Bvfit, EverythingInAFileIsJudgedNodesAndEnvelopesToo) {
+  const std::string oak = tree(), json_file = folder_.file("oak.json"), out = folder_.file("oak.bv.stree");
+  const std::vector<std::string> call{oak,      "--per", "groups,segments", "--hierarchy", "rtree4",
+                                      "--sway", "7.1",   "--quality",       "fast",        "-q"};
+  for (const std::string& file : {json_file, out}) {
+    std::vector<std::string> with_output = call;
+    with_output.insert(with_output.end(), {"-o", file});
+    ASSERT_EQ(run(with_output).status, 0);
+    const Outcome o = run({"--verify", file, oak});
+    EXPECT_EQ(o.status, 0) << o.err;
+    for (const char* set : {"group 3 envelope ", "node 0 envelope ", "segment 2 "})
+      EXPECT_NE(o.out.find(set), std::string::npos) << set;
+    EXPECT_EQ(o.out.find("outside"), std::string::npos);
+  }
+  EXPECT_EQ(run({out, "--verify"}, "treedump").status, 0);
+  const json j = json::parse(read_text(json_file));
+  std::size_t found = 0;
+  for (std::size_t s = 0; s < j["sets"].size(); ++s) {
+    const std::string name = j["sets"][s]["name"];
+    if (name != "group 3 envelope" && name != "node 0 envelope") continue;
+    json small = j;
+    for (json& v : small["sets"][s]["volumes"]) {
+      if (v["type"] == "sphere") v["radius"] = v["radius"].get<double>() * 0.999;
+    }
+    const Outcome o = run({"--verify", save("small.json", small.dump()), oak});
+    EXPECT_EQ(o.status, 1);
+    EXPECT_NE(o.err.find("1 of "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("of '" + name + "'"), std::string::npos) << o.err;
+    ++found;
+  }
+  EXPECT_EQ(found, 2u);
+  for (const char* nodes :
+       {R"([{"skip":9,"set":0}])", R"([{"skip":1,"set":99999}])", R"([{"skip":0,"set":0}])",
+        R"([{"skip":3,"set":0},{"skip":3,"set":0},{"skip":3,"set":1}])", "[7]"}) {
+    json wrong = j;
+    wrong["nodes"] = json::parse(nodes);
+    const Outcome o = run({"--verify", save("wrong.json", wrong.dump()), oak});
+    EXPECT_EQ(o.status, 1);
+    EXPECT_NE(o.err.find("no hierarchy"), std::string::npos) << o.err;
+  }
+}
+
+TEST_F(Bvfit, FoliageCellsAreFittedStoredAndVerified) {
+  const std::string oak = tree(), celled = folder_.file("cells.stree"), out = folder_.file("cells.bv.stree");
+  ASSERT_EQ(
+      run({oak, "--foliage", "prune", "--cells", "6", "--views", "12", "-q", "-o", celled}, "lodbake").status,
+      0);
+  const Outcome o =
+      run({celled, "--per", "cells", "--hierarchy", "kd2", "--quality", "fast", "-q", "-o", out});
+  ASSERT_EQ(o.status, 0) << o.err;
+  const auto v = load_volumes(*TreeFile::open(out));
+  ASSERT_TRUE(v) << v.error().what;
+  EXPECT_EQ(std::count_if(v->sets.begin(), v->sets.end(),
+                          [](const VolumeSet& s) { return s.part == VolumePart::cell; }),
+            6);
+  EXPECT_EQ(run({"--verify", out, celled}).status, 0);
+  EXPECT_EQ(run({out, "--verify"}, "treedump").status, 0);
+  const Outcome without = run({"--verify", out, oak});
+  EXPECT_EQ(without.status, 1);
+  EXPECT_NE(without.err.find("no foliage cells"), std::string::npos) << without.err;
+}
+
 TEST_F(Bvfit, AScenesObjectsAreItsParts) {
   const std::string mesh =
       save("scene.obj", std::string("o first\n") + k_cube +
@@ -317,6 +380,7 @@ TEST_F(Bvfit, MistakesAreOneLineWithTheRightStatus) {
       {{mesh, "--methods", "magic"}, 2, "'magic'"},
       {{mesh, "--per", "twigs"}, 2, "'twigs'"},
       {{mesh, "--per", "groups"}, 1, "a mesh has no leaf groups"},
+      {{tree(), "--per", "cells"}, 1, "lodbake --foliage prune"},
       {{mesh, "--hierarchy", "kd4"}, 2, "needs parts"},
       {{tree(), "--per", "groups", "--hierarchy", "kd5"}, 2, "'kd5'"},
       {{mesh, "--sway", "5"}, 1, "moves"},

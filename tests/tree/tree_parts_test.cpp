@@ -3,6 +3,7 @@
 #include "tests/formats/tree_maker.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -47,6 +48,23 @@ TEST(TreeParts, EveryTriangleIsInOneSegmentOrOneGroup) {
     for (const std::uint32_t v : t.vertex) used.insert(v + parts.trunk_points());
   }
   EXPECT_EQ(seen, used);
+}
+
+TEST(TreeParts, CellsTileTheLeaves) {
+  const Tree tree = make_tree({.leaves = 25, .groups = 6}, 2);
+  FoliageCells cells;
+  std::vector<FoliageCell> cut(3);
+  cut[0].count = 5, cut[1].first = 5, cut[1].count = 0, cut[2].first = 5, cut[2].count = 20;
+  std::vector<std::uint32_t> order(25);
+  std::iota(order.rbegin(), order.rend(), 0u);
+  cells.cells = cut, cells.order = order;
+  TreeParts parts(tree, &cells);
+  ASSERT_EQ(parts.count(VolumePart::cell), 3u);
+  EXPECT_TRUE(parts.part(VolumePart::cell, 1).points.empty());
+  EXPECT_EQ(
+      parts.part(VolumePart::cell, 0).triangles.size() + parts.part(VolumePart::cell, 2).triangles.size(),
+      tree.leaves.triangles.size());
+  EXPECT_EQ(TreeParts(tree).count(VolumePart::cell), 0u);
 }
 
 TEST(TreeParts, GroupsWithoutTheirLeavesHaveNoPoints) {

@@ -4,6 +4,8 @@
 #include "lib/analysis/volumes/minimal_sphere.h"
 #include "tests/formats/tree_maker.h"
 
+#include <numeric>
+
 #include <gtest/gtest.h>
 
 namespace copse {
@@ -73,12 +75,43 @@ TEST(CheckCertificates, ARadiusThatIsALittleTooSmallIsFoundInEverySet) {
   }
 }
 
-TEST(CheckCertificates, EnvelopesAreNotJudged) {
+TEST(CheckCertificates, AnEnvelopeMustHoldWhatSwaysByItsAngle) {
+  const Tree tree = make_tree({.radii = 20, .leaves = 20, .groups = 5}, 1);
+  Stored s = stored_for(tree);  // balls round what is at rest
+  s.sets[2].motion = VolumeMotion::envelope, s.sets[2].sway = 10;
+  s.sets.back().motion = VolumeMotion::envelope, s.sets.back().sway = 10;  // of the node
+  const auto failures = check_certificates(tree, s.volumes());
+  ASSERT_EQ(failures.size(), 2u);
+  EXPECT_NE(failures[0].find("of group 1 envelope leaves"), std::string::npos) << failures[0];
+  EXPECT_NE(failures[1].find("of node 0 envelope leaves"), std::string::npos) << failures[1];
+  for (const std::size_t i : {2u, 6u}) s.numbers[4 * i + 3] = 1e6f;  // wide enough for any sway
+  EXPECT_TRUE(check_certificates(tree, s.volumes()).empty());
+}
+
+TEST(CheckCertificates, AnEnvelopeOfUnknownMotionMustHoldWhatIsAtRest) {
   const Tree tree = make_tree({}, 1);
   Stored s = stored_for(tree);
-  s.numbers[3] = 0;
   s.sets[0].motion = VolumeMotion::envelope;
   EXPECT_TRUE(check_certificates(tree, s.volumes()).empty());
+  s.numbers[3] = 0;
+  EXPECT_EQ(check_certificates(tree, s.volumes()).size(), 1u);
+}
+
+TEST(CheckCertificates, CellsAreJudgedByTheirLeaves) {
+  const Tree tree = make_tree({.leaves = 20, .groups = 5}, 1);
+  FoliageCells cells;
+  std::vector<FoliageCell> cut(2);
+  cut[0].count = 8, cut[1].first = 8, cut[1].count = 12;
+  std::vector<std::uint32_t> order(20);
+  std::iota(order.rbegin(), order.rend(), 0u);
+  cells.cells = cut, cells.order = order;
+  TreeParts parts(tree, &cells);
+  Stored s;
+  for (const std::uint32_t c : {0u, 1u}) s.ball(VolumePart::cell, c, points_of(parts, VolumePart::cell, c));
+  EXPECT_TRUE(check_certificates(tree, s.volumes(), cells).empty());
+  std::swap(s.sets[0].index, s.sets[1].index);
+  EXPECT_FALSE(check_certificates(tree, s.volumes(), cells).empty());
+  EXPECT_EQ(check_certificates(tree, s.volumes()).at(0), "VSET[0]: the tree has no cell 1");
 }
 
 }  // namespace

@@ -141,6 +141,7 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
   if (!fitter) return std::unexpected(fitter.error());
   SetFit fit;
   fit.name = set.name, fit.part = set.part, fit.index = set.index, fit.motion = set.motion;
+  fit.sway = set.motion == VolumeMotion::envelope ? set.sway : 0;
   fit.points = set.points.size(), fit.hull_points = fitter->hull().vertices.size();
   const PointFrame& frame = fitter->hull().frame;
   fit.hull_volume = frame.volume_out(fitter->hull().volume);

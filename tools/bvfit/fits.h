@@ -15,6 +15,7 @@ struct SetFit {
   VolumePart part = VolumePart::whole;
   std::uint32_t index = k_none;
   VolumeMotion motion = VolumeMotion::rest;
+  float sway = 0;  // of an envelope, degrees
   std::size_t points = 0, hull_points = 0;
   double hull_volume = 0, hull_surface = 0;  // of a solid hull
   double size = 0;                           // the diagonal of its box

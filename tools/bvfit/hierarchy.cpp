@@ -122,13 +122,13 @@ Result<void> fit_hierarchy(Hierarchy& h, std::span<const PartSet> parts,
     if (n.item != k_none) continue;
     PartSet set;
     set.part = VolumePart::node, set.index = i;
-    set.name = set_name({.part = set.part, .index = i});
     for (std::uint32_t j = n.first; j < n.first + n.count; ++j) {
       const PartSet& part = parts[h.items[h.tree.order[j]]];
       const std::vector<Double3>& points = part.envelope.empty() ? part.points : part.envelope;
       set.points.insert(set.points.end(), points.begin(), points.end());
-      if (!part.envelope.empty()) set.motion = VolumeMotion::envelope;
+      if (!part.envelope.empty()) set.motion = VolumeMotion::envelope, set.sway = part.sway;
     }
+    set.name = set_name({.part = set.part, .index = i, .motion = set.motion});
     sets.push_back(std::move(set));
   }
   auto fits = fit_sets(sets, methods, options, choosing, stage);

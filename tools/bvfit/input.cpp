@@ -3,12 +3,14 @@
 #include "lib/analysis/leaves/classify.h"
 #include "lib/analysis/tree/tree_parts.h"
 #include "lib/analysis/volumes/minimal_sphere.h"
+#include "lib/analysis/volumes/motion_envelope.h"
 #include "lib/formats/import/import.h"
 #include "lib/formats/import/xyz.h"
 
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -93,7 +95,14 @@ Result<void> add_tree(const fs::path& path, Input& input, Context& context) {
   context.read(path, true);
   auto tree = file->load();
   if (!tree) return std::unexpected(tree.error());
+  auto cells = read_foliage_cells(*file);
+  if (!cells) return fail(cells.error().fault, path.string(), cells.error().what, cells.error().remedy);
+  if (!cells->cells.empty() && cells->parameters.leaves != hash_leaves(*tree)) {
+    return refuse(path.string(), "FCEL: its foliage cells were made for other leaves",
+                  "bake them again (lodbake)");
+  }
   input.tree = std::move(*tree);
+  input.cells = std::move(*cells);
   input.file = std::move(*file);
   const TreeParts parts(input.tree);
   input.points = parts.points();
@@ -196,9 +205,9 @@ Result<void> needs_tree(const Input& input, const char* what) {
                 "make a tree of it first (treeprep), or use --per parts");
 }
 
-// Every group or segment that has points.
+// Every group, segment or cell that has points.
 Result<void> add_all(const Input& input, VolumePart which, Sets& sets) {
-  TreeParts parts(input.tree);
+  TreeParts parts(input.tree, &input.cells);
   for (std::uint32_t i = 0; i < parts.count(which); ++i) {
     PartSet set = set_of(parts.part(which, i), input, which, i);
     if (!set.points.empty()) sets.push_back(std::move(set));
@@ -220,9 +229,14 @@ Result<void> add_segments(const Input& input, Sets& sets) {
   return add_all(input, VolumePart::segment, sets);
 }
 
-Result<void> add_cells(const Input& input, Sets&) {
+Result<void> add_cells(const Input& input, Sets& sets) {
   if (auto ok = needs_tree(input, "foliage cells"); !ok) return ok;
-  return refuse(input.name, "it has no foliage cells", "make them first (lodbake --cells)");
+  if (input.cells.cells.empty()) {
+    return refuse(input.name, "it has no foliage cells", "make them first (lodbake --foliage prune)");
+  }
+  if (input.tree.leaves.triangles.empty())
+    return refuse(input.name, "the leaves of its cells (LTRI) were left out", "prepare the tree with them");
+  return add_all(input, VolumePart::cell, sets);
 }
 
 // A scene of many meshes: every object, and every file where objects have no names.
@@ -310,18 +324,28 @@ Result<Sets> part_sets(const Input& input, const std::vector<std::string>& per) 
   return sets;
 }
 
-Result<PartSet> part_named(const Input& input, const std::string& name) {
+Result<Sets> parts_like(const Input& input, const std::string& name) {
   for (const Per& per : pers()) {
     const std::string singular = std::string(per.name).substr(0, std::string_view(per.name).size() - 1);
-    if (name != per.name && !name.starts_with(singular + " ")) continue;
-    Sets sets;
-    if (auto ok = per.add(input, sets); !ok) return std::unexpected(ok.error());
-    for (PartSet& set : sets) {
-      if (set.name == name) return std::move(set);
-    }
+    if (name == per.name || name.starts_with(singular + " ")) return part_sets(input, {per.name});
   }
-  return refuse(input.name, fmt::format("it has no set of points '{}'", name),
-                "name the mesh that the volumes were fitted to");
+  return Sets{};
+}
+
+Result<Sway> Sway::make(const Input& input, float degrees) {
+  if (!input.file || input.tree.header.kind != TreeKind::sensitive)
+    return refuse(input.name, "only a tree with a hierarchy moves", "name an .stree, or leave --sway out");
+  Sway sway;
+  sway.degrees_ = degrees;
+  sway.reach_ = sway_reach(input.tree, degrees * std::numbers::pi / 180);
+  return sway;
+}
+
+std::vector<Double3> Sway::envelope(const PartSet& part) const {
+  std::vector<double> radii;
+  for (std::size_t p = 0; p < part.points.size(); ++p)
+    radii.push_back(reach_[part.source.empty() ? p : part.source[p]]);
+  return ball_envelope(part.points, radii);
 }
 
 }  // namespace copse::bvfit

@@ -1,6 +1,7 @@
 // What is to be enclosed: a mesh, a tree or points, and its parts.
 #pragma once
 
+#include "lib/formats/foliage_cells.h"
 #include "lib/formats/mesh.h"
 #include "lib/formats/result.h"
 #include "lib/formats/tree_file.h"
@@ -22,6 +23,7 @@ struct Input {
   std::vector<std::uint32_t> file_of;  // of each triangle
   std::optional<TreeFile> file;        // of a tree
   Tree tree;
+  FoliageCells cells;              // that the tree came with
   std::uint32_t trunk_points = 0;  // of a tree: the trunk's vertices come first
 };
 
@@ -33,6 +35,7 @@ struct PartSet {
   VolumePart part = VolumePart::whole;
   std::uint32_t index = k_none;
   VolumeMotion motion = VolumeMotion::rest;
+  float sway = 0;  // degrees, with --sway
   std::vector<Double3> points;
   std::vector<std::uint32_t> source;  // of each point in Input::points; empty: the same
   std::vector<Triangle> triangles;    // over `points`; may be empty
@@ -45,7 +48,21 @@ struct PartSet {
 // does not have what is asked for.
 Result<std::vector<PartSet>> part_sets(const Input& input, const std::vector<std::string>& per);
 
-// The part of that name; an error when there is none.
-Result<PartSet> part_named(const Input& input, const std::string& name);
+// The parts of the kind that `name` is of: of "group 12" all groups (and what they bring along). Refused when
+// the input has none of these.
+Result<std::vector<PartSet>> parts_like(const Input& input, const std::string& name);
+
+// Points round everywhere that a part's points come to when every link of the tree's hierarchy turns by up to
+// `degrees`, above 0. Refused when the input has no hierarchy.
+class Sway {
+ public:
+  static Result<Sway> make(const Input& input, float degrees);
+  std::vector<Double3> envelope(const PartSet& part) const;
+  float degrees() const { return degrees_; }
+
+ private:
+  float degrees_ = 0;
+  std::vector<double> reach_;  // of Input::points
+};
 
 }  // namespace copse::bvfit

@@ -1,6 +1,5 @@
 #include "tools/bvfit/run.h"
 
-#include "lib/analysis/volumes/motion_envelope.h"
 #include "tools/bvfit/draw.h"
 #include "tools/bvfit/fits.h"
 #include "tools/bvfit/hierarchy.h"
@@ -14,7 +13,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -44,21 +42,17 @@ struct Work {
 
 // With --sway every part has a second set: the envelope of its motion.
 Result<void> add_envelopes(Work& work, double degrees) {
-  if (work.input.tree.header.kind != TreeKind::sensitive || !work.input.file) {
-    return refuse(work.input.name, "only a tree with a hierarchy moves",
-                  "name an .stree, or leave --sway out");
-  }
-  const std::vector<double> reach = sway_reach(work.input.tree, degrees * std::numbers::pi / 180);
+  const auto sway = Sway::make(work.input, round_up(degrees));
+  if (!sway) return std::unexpected(sway.error());
   const std::size_t parts = work.parts.size();
   for (std::size_t i = 0; i < parts; ++i) {
     PartSet& part = work.parts[i];
-    std::vector<double> radii;
-    for (std::size_t p = 0; p < part.points.size(); ++p)
-      radii.push_back(reach[part.source.empty() ? p : part.source[p]]);
-    part.envelope = ball_envelope(part.points, radii);
+    part.envelope = sway->envelope(part);
+    part.sway = sway->degrees();
     PartSet envelope;
     envelope.part = part.part, envelope.index = part.index, envelope.motion = VolumeMotion::envelope;
     envelope.name = part.name + " envelope";
+    envelope.sway = part.sway;
     envelope.points = part.envelope;
     work.parts.push_back(std::move(envelope));
   }
@@ -111,7 +105,7 @@ Result<void> write_output(const Work& work, const Options& options, Context& con
   if (options.output.empty()) return {};
   Stage stage = context.stage("write");
   if (!is_tree_name(options.output))
-    return context.write(options.output, volumes_json(work.input, work.sets, options));
+    return context.write(options.output, volumes_json(work.input, work.sets, work.nodes, options));
   const auto bytes = tree_with_volumes(work.input, work.sets, work.nodes);
   if (!bytes) return std::unexpected(bytes.error());
   stage.items(bytes->size(), "bytes");

@@ -19,7 +19,8 @@ Result<std::vector<std::uint8_t>> tree_with_volumes(const Input& input, std::spa
                            .first = static_cast<std::uint32_t>(records.size()),
                            .count = static_cast<std::uint32_t>(set.volumes.size()),
                            .chosen = static_cast<std::uint32_t>(set.chosen),
-                           .points = static_cast<std::uint32_t>(set.points)});
+                           .points = static_cast<std::uint32_t>(set.points),
+                           .sway = set.sway});
     for (const FittedVolume& v : set.volumes) {
       const std::vector<float> n = numbers_of(v.volume);
       VolumeRecord r{.kind = v.method.kind,

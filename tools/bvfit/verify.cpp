@@ -5,6 +5,7 @@
 #include "tools/bvfit/volumes_json.h"
 
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -13,44 +14,111 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<std::vector<ReadSet>> sets_of_tree(const fs::path& path) {
+// Points times volumes: some minutes. A forged file must not take days.
+constexpr std::uint64_t k_most_tests = std::uint64_t{1} << 34;
+
+Result<ReadVolumes> volumes_of_tree(const fs::path& path) {
   const auto file = TreeFile::open(path);
   if (!file) return std::unexpected(file.error());
   const auto volumes = load_volumes(*file);
   if (!volumes) return std::unexpected(volumes.error());
   if (volumes->empty()) return refuse(path.string(), "it holds no volumes", "fit some first (bvfit -o)");
-  std::vector<ReadSet> sets;
+  ReadVolumes read;
   for (const VolumeSet& s : volumes->sets) {
-    // A node's and an envelope's points are not those of a part: treedump --verify looks at these.
-    if (s.part == VolumePart::node || s.motion != VolumeMotion::rest) continue;
-    ReadSet set{set_name(s), {}};
+    ReadSet set{set_name({.part = s.part, .index = s.index}), s.motion, s.sway, k_none, {}};
     for (std::uint32_t i = s.first; i < s.first + s.count; ++i) {
       const VolumeRecord& r = volumes->volumes[i];
       set.volumes.push_back({std::string(name_of(r.kind)), std::string(r.method_name()),
                              to_double(volumes->volume(i)), (r.flags & VolumeRecord::certified) != 0});
     }
-    sets.push_back(std::move(set));
+    read.sets.push_back(std::move(set));
   }
-  return sets;
+  read.nodes = volumes->nodes.to_vector();
+  if (!find_node_sets(read))
+    return refuse(path.string(), "VNOD: two nodes have the same set", "fit the volumes again (bvfit)");
+  return read;
 }
 
-Result<std::vector<ReadSet>> read_sets(const fs::path& path) {
-  if (path.extension() == ".tree" || path.extension() == ".stree") return sets_of_tree(path);
+Result<ReadVolumes> read_volumes(const fs::path& path) {
+  if (path.extension() == ".tree" || path.extension() == ".stree") return volumes_of_tree(path);
   const auto file = MappedFile::open(path);
   if (!file) return std::unexpected(file.error());
   const auto bytes = file->bytes();
   return read_volumes_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
+// What the sets are to hold. Parts are gathered a kind at a time and kept.
+class Contents {
+ public:
+  Contents(const Input& input, const ReadVolumes& volumes) : input_(input), volumes_(volumes) {}
+
+  Result<std::vector<Double3>> of(const ReadSet& set) {
+    std::vector<Double3> out;
+    if (set.node == k_none) {
+      if (auto ok = add(set.name, set, out); !ok) return std::unexpected(ok.error());
+      return out;
+    }
+    const auto& nodes = volumes_.nodes;
+    for (std::uint32_t i = set.node; i < nodes[set.node].skip; ++i) {
+      if (nodes[i].skip != i + 1) continue;
+      if (auto ok = add(volumes_.sets[nodes[i].set].name, set, out); !ok) return std::unexpected(ok.error());
+    }
+    return out;
+  }
+
+ private:
+  // The points of a part, as `moving` sways.
+  Result<void> add(const std::string& name, const ReadSet& moving, std::vector<Double3>& out) {
+    const auto part = part_named(name);
+    if (!part) return std::unexpected(part.error());
+    if (moving.motion == VolumeMotion::rest || moving.sway == 0) {
+      out.insert(out.end(), (*part)->points.begin(), (*part)->points.end());
+      return {};
+    }
+    if (!sway_ || sway_->degrees() != moving.sway) {
+      auto sway = Sway::make(input_, moving.sway);
+      if (!sway) return std::unexpected(sway.error());
+      sway_ = std::move(*sway);
+    }
+    const std::vector<Double3> envelope = sway_->envelope(**part);
+    out.insert(out.end(), envelope.begin(), envelope.end());
+    return {};
+  }
+
+  Result<const PartSet*> part_named(const std::string& name) {
+    if (const auto at = parts_.find(name); at != parts_.end()) return &at->second;
+    auto like = parts_like(input_, name);
+    if (!like) return std::unexpected(like.error());
+    for (PartSet& part : *like) {
+      std::string its_name = part.name;
+      parts_.emplace(std::move(its_name), std::move(part));
+    }
+    if (const auto at = parts_.find(name); at != parts_.end()) return &at->second;
+    return refuse(input_.name, fmt::format("it has no set of points '{}'", name),
+                  "name the mesh that the volumes were fitted to");
+  }
+
+  const Input& input_;
+  const ReadVolumes& volumes_;
+  std::map<std::string, PartSet> parts_;
+  std::optional<Sway> sway_;
+};
+
 struct Verdict {
-  const ReadSet* set = nullptr;
+  std::string set;
   const ReadVolume* volume = nullptr;
   Certificate certificate;
   Double3 worst;
 };
 
+// An envelope whose motion nobody has told is judged by what is at rest, and says so.
+std::string name_of_set(const ReadSet& set) {
+  if (set.motion == VolumeMotion::rest) return set.name;
+  return set.name + (set.sway > 0 ? " envelope" : " envelope, at rest");
+}
+
 std::string line_of(const Verdict& v) {
-  const std::string what = fmt::format("{:<16} {:<10} {:<16}", v.set->name, v.volume->type, v.volume->method);
+  const std::string what = fmt::format("{:<16} {:<10} {:<16}", v.set, v.volume->type, v.volume->method);
   if (v.certificate.holds()) return fmt::format("{} holds all {} points\n", what, v.certificate.points);
   return fmt::format("{} leaves {} of {} points outside, the worst by {:.3g}\n", what, v.certificate.outside,
                      v.certificate.points, v.certificate.excess);
@@ -60,37 +128,39 @@ std::string line_of(const Verdict& v) {
 
 Result<void> verify_volumes(const Options& options, Context& context) {
   context.read(options.verify, true);
-  const auto sets = read_sets(options.verify);
-  if (!sets) return std::unexpected(sets.error());
+  const auto volumes = read_volumes(options.verify);
+  if (!volumes) return std::unexpected(volumes.error());
   const auto input = read_input(options.inputs, context);
   if (!input) return std::unexpected(input.error());
   Stage stage = context.stage("verify");
   Verdict worst;
-  std::size_t failed = 0, judged = 0;
-  std::map<std::string, PartSet> parts;
-  for (const ReadSet& set : *sets) {
-    if (!parts.contains(set.name)) {
-      auto part = part_named(*input, set.name);
-      if (!part) return std::unexpected(part.error());
-      parts.emplace(set.name, std::move(*part));
-    }
-    const PartSet& part = parts.at(set.name);
+  std::size_t failed = 0, judged = 0, done = 0;
+  std::uint64_t tests = 0;
+  Contents contents(*input, *volumes);
+  for (const ReadSet& set : volumes->sets) {
+    const auto points = contents.of(set);
+    if (!points) return std::unexpected(points.error());
+    tests += (points->size() + 1) * (set.volumes.size() + 1);
+    if (tests > k_most_tests)
+      return refuse(options.verify.string(), "more volumes and points than can be judged",
+                    "judge parts of it");
     for (const ReadVolume& volume : set.volumes) {
-      Verdict v{&set, &volume, certify(volume.volume, part.points), {}};
+      Verdict v{name_of_set(set), &volume, certify(volume.volume, *points), {}};
       ++judged;
       if (!context.options().quiet || !v.certificate.holds()) context.print(line_of(v));
       if (v.certificate.holds()) continue;
       ++failed;
-      v.worst = part.points[v.certificate.worst];
-      if (worst.set == nullptr || v.certificate.excess > worst.certificate.excess) worst = v;
+      v.worst = (*points)[v.certificate.worst];
+      if (worst.volume == nullptr || v.certificate.excess > worst.certificate.excess) worst = v;
     }
+    stage.progress(static_cast<double>(++done) / static_cast<double>(volumes->sets.size()));
   }
   stage.items(judged, "volumes");
   if (failed == 0) return {};
   return refuse(options.verify.string(),
                 fmt::format("{} of {} volumes leave points outside; the worst is {} ({}) of '{}': point {} "
                             "({}, {}, {}) lies {:.3g} outside",
-                            failed, judged, worst.volume->type, worst.volume->method, worst.set->name,
+                            failed, judged, worst.volume->type, worst.volume->method, worst.set,
                             worst.certificate.worst, worst.worst.x, worst.worst.y, worst.worst.z,
                             worst.certificate.excess),
                 "fit them again");

@@ -2,6 +2,8 @@
 
 #include "lib/analysis/volumes/certify.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -79,6 +81,11 @@ const char* criterion_name(Criterion c) {
       break;
   }
   return "expected";
+}
+
+std::string motion_json(const SetFit& set) {
+  if (set.motion == VolumeMotion::rest) return "";
+  return fmt::format("\"motion\":\"envelope\",\"sway\":{},", set.sway);
 }
 
 // --- reading
@@ -159,6 +166,28 @@ std::string text_of(const nlohmann::json& j, const char* name) {
   return j.is_object() && j.contains(name) && j[name].is_string() ? j[name].get<std::string>() : "";
 }
 
+constexpr std::string_view k_envelope = " envelope";
+
+Result<ReadSet> read_set(const nlohmann::json& j, std::size_t index, const std::string& file) {
+  ReadSet set;
+  set.name = text_of(j, "name").empty() ? "whole" : text_of(j, "name");
+  if (text_of(j, "motion") == "envelope") set.motion = VolumeMotion::envelope;
+  if (j.contains("sway") && j["sway"].is_number()) set.sway = j["sway"].get<float>();
+  if (set.motion == VolumeMotion::envelope && set.name.ends_with(k_envelope))
+    set.name.resize(set.name.size() - k_envelope.size());
+  if (!(set.sway >= 0 && set.sway <= 180))
+    return refuse(file, fmt::format("set {}: \"sway\" is out of range", index), "write 0 to 180 degrees");
+  if (!j.contains("volumes") || !j["volumes"].is_array())
+    return refuse(file, fmt::format("set {} has no \"volumes\"", index), "write it as bvfit does");
+  return set;
+}
+
+// Indices that JSON may hold; k_none for what is none.
+std::uint32_t index_of(const nlohmann::json& j, const char* name) {
+  if (!j.is_object() || !j.contains(name) || !j[name].is_number_unsigned()) return k_none;
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(j[name].get<std::uint64_t>(), k_none));
+}
+
 Result<ReadVolume> read_volume(const nlohmann::json& j, const std::string& file, const std::string& place) {
   ReadVolume v;
   v.type = text_of(j, "type"), v.method = text_of(j, "method");
@@ -181,7 +210,19 @@ Result<ReadVolume> read_volume(const nlohmann::json& j, const std::string& file,
 
 }  // namespace
 
-std::string volumes_json(const Input& input, std::span<const SetFit> sets, const Options& options) {
+bool find_node_sets(ReadVolumes& v) {
+  for (std::uint32_t i = 0; i < v.nodes.size(); ++i) {
+    const VolumeNode& n = v.nodes[i];
+    if (n.set >= v.sets.size() || n.skip <= i || n.skip > v.nodes.size()) return false;
+    if (n.skip == i + 1) continue;
+    if (v.sets[n.set].node != k_none) return false;
+    v.sets[n.set].node = i;
+  }
+  return true;
+}
+
+std::string volumes_json(const Input& input, std::span<const SetFit> sets, std::span<const VolumeNode> nodes,
+                         const Options& options) {
   std::size_t hull_points = sets.empty() ? 0 : sets.front().hull_points;
   std::string out =
       fmt::format("{{\"schema\":\"copse.volumes/1\",\"input\":{},\"points\":{},\"hull_points\":{},\n",
@@ -193,19 +234,25 @@ std::string volumes_json(const Input& input, std::span<const SetFit> sets, const
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const SetFit& set = sets[s];
     out += fmt::format(
-        "  {{\"name\":{},\"points\":{},\"hull_points\":{},\"chosen\":{},\"criterion\":\"{}\",\"volumes\":[\n",
-        Json(set.name).dump(-1, ' ', false, Json::error_handler_t::replace), set.points, set.hull_points,
-        set.chosen, criterion_name(options.choose));
+        "  "
+        "{{\"name\":{},{}\"points\":{},\"hull_points\":{},\"chosen\":{},\"criterion\":\"{}\",\"volumes\":[\n",
+        Json(set.name).dump(-1, ' ', false, Json::error_handler_t::replace), motion_json(set), set.points,
+        set.hull_points, set.chosen, criterion_name(options.choose));
     for (std::size_t v = 0; v < set.volumes.size(); ++v) {
       out += "   " + volume_json(set.volumes[v], options.times).dump() +
              (v + 1 < set.volumes.size() ? ",\n" : "\n");
     }
     out += s + 1 < sets.size() ? "  ]},\n" : "  ]}\n";
   }
-  return out + " ]}\n";
+  out += nodes.empty() ? " ]" : " ],\n \"nodes\":[\n";
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    out += fmt::format("  {{\"skip\":{},\"set\":{}}}{}", nodes[i].skip, nodes[i].set,
+                       i + 1 < nodes.size() ? ",\n" : "\n ]");
+  }
+  return out + "}\n";
 }
 
-Result<std::vector<ReadSet>> read_volumes_json(const std::string& text, const std::string& file) {
+Result<ReadVolumes> read_volumes_json(const std::string& text, const std::string& file) {
   // The callback bounds the nesting: a parser of ours would recurse as deep as the file likes.
   bool deep = false;
   const auto j = nlohmann::json::parse(
@@ -219,20 +266,24 @@ Result<std::vector<ReadSet>> read_volumes_json(const std::string& text, const st
   }
   if (!j.contains("sets") || !j["sets"].is_array())
     return refuse(file, "it has no \"sets\"", "name a volumes file (schema copse.volumes/1)");
-  std::vector<ReadSet> sets;
+  ReadVolumes volumes;
   for (const auto& s : j["sets"]) {
-    ReadSet set{text_of(s, "name").empty() ? "whole" : text_of(s, "name"), {}};
-    if (!s.is_object() || !s.contains("volumes") || !s["volumes"].is_array()) {
-      return refuse(file, fmt::format("set {} has no \"volumes\"", sets.size()), "write it as bvfit does");
-    }
+    auto set = read_set(s, volumes.sets.size(), file);
+    if (!set) return std::unexpected(set.error());
     for (const auto& v : s["volumes"]) {
-      auto volume = read_volume(v, file, fmt::format("set '{}', volume {}", set.name, set.volumes.size()));
+      auto volume = read_volume(v, file, fmt::format("set '{}', volume {}", set->name, set->volumes.size()));
       if (!volume) return std::unexpected(volume.error());
-      set.volumes.push_back(std::move(*volume));
+      set->volumes.push_back(std::move(*volume));
     }
-    sets.push_back(std::move(set));
+    volumes.sets.push_back(std::move(*set));
   }
-  return sets;
+  if (j.contains("nodes") && j["nodes"].is_array()) {
+    for (const auto& n : j["nodes"])
+      volumes.nodes.push_back({index_of(n, "skip"), k_none, index_of(n, "set")});
+  }
+  if (!find_node_sets(volumes))
+    return refuse(file, "its \"nodes\" are no hierarchy over the sets", "write them as bvfit does");
+  return volumes;
 }
 
 }  // namespace copse::bvfit

@@ -175,6 +175,7 @@ void add_volumes(JsonText& json, const TreeFile& file, bool arrays) {
     json.open_object(JsonText::in_line);
     json.member("name", set_name(set));
     json.member("points", set.points);
+    if (set.motion == VolumeMotion::envelope) json.member("sway", set.sway);
     json.member("chosen", set.chosen);
     json.key("volumes");
     json.open_list(JsonText::in_line);

@@ -21,8 +21,9 @@ Result<std::vector<std::string>> verify_file(const std::filesystem::path& path) 
     if (!failures.empty()) return failures;
     const auto volumes = load_volumes(*file);
     const auto tree = file->load();
-    if (!volumes || volumes->empty() || !tree) return failures;
-    return check_certificates(*tree, *volumes);
+    const auto cells = read_foliage_cells(*file);
+    if (!volumes || volumes->empty() || !tree || !cells) return failures;
+    return check_certificates(*tree, *volumes, *cells);
   }
   // Header or table do not fit together; the checksums can be checked all the same.
   std::vector<std::string> failures{file.error().what};

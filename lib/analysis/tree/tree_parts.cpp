@@ -2,7 +2,7 @@
 
 namespace copse {
 
-TreeParts::TreeParts(const Tree& tree) : tree_(tree) {
+TreeParts::TreeParts(const Tree& tree, const FoliageCells* cells) : tree_(tree), cells_(cells) {
   for (const Float3& v : trunk_vertices(tree)) points_.push_back(to_double(v));
   trunk_points_ = static_cast<std::uint32_t>(points_.size());
   for (const Float3& v : tree.leaves.vertices) points_.push_back(to_double(v));
@@ -20,6 +20,7 @@ std::uint32_t TreeParts::count(VolumePart part) const {
     case VolumePart::segment:
       return static_cast<std::uint32_t>(tree_.segment_count());
     case VolumePart::cell:
+      return cells_ != nullptr ? static_cast<std::uint32_t>(cells_->cells.size()) : 0;
     case VolumePart::node:
       break;
   }
@@ -52,6 +53,7 @@ void TreeParts::close(const TreePart& part) {
 
 TreePart TreeParts::of_leaves(std::span<const std::uint32_t> leaves) {
   TreePart part;
+  if (tree_.leaves.triangles.empty()) return part;  // left out
   for (const std::uint32_t leaf : leaves) {
     const std::size_t end = tree_.first_triangle_of_leaf(leaf + 1);
     for (std::size_t t = tree_.first_triangle_of_leaf(leaf); t < end; ++t)
@@ -66,6 +68,10 @@ TreePart TreeParts::part(VolumePart which, std::uint32_t index) {
     if (!groups_have_leaves()) return {};
     const LeafGroup& group = tree_.leaves.groups[index];
     return of_leaves(tree_.leaves.order.span().subspan(group.first, group.count));
+  }
+  if (which == VolumePart::cell) {
+    const FoliageCell& cell = cells_->cells[index];
+    return of_leaves(cells_->order.span().subspan(cell.first, cell.count));
   }
   TreePart part;
   const Array<CornerTriangle>&trunk = tree_.trunk.triangles, &leaves = tree_.leaves.triangles;

@@ -1,6 +1,7 @@
 // tree_parts: the vertices of a tree and of its parts, and the triangles between them.
 #pragma once
 
+#include "lib/formats/foliage_cells.h"
 #include "lib/formats/mesh.h"
 #include "lib/formats/tree.h"
 #include "lib/formats/tree_volumes.h"
@@ -16,31 +17,33 @@ struct TreePart {
   std::vector<Triangle> triangles;    // over `points`
 };
 
-// Of a tree that must outlive it and whose indices are in range (it was loaded with Trust::nothing).
+// Of a tree, and its foliage cells where it has some, that must outlive it and whose indices are in range
+// (they were loaded with Trust::nothing).
 class TreeParts {
  public:
-  explicit TreeParts(const Tree& tree);
+  explicit TreeParts(const Tree& tree, const FoliageCells* cells = nullptr);
 
   // The trunk's vertices, then the leaves', relative to the tree's origin, as float32.
   const std::vector<Double3>& points() const { return points_; }
   std::uint32_t trunk_points() const { return trunk_points_; }
 
-  // How many of a part there are: 1 of whole, trunk and leaves; none of cells and nodes, which are made of
-  // others.
+  // How many of a part there are: 1 of whole, trunk and leaves; none of nodes, which are made of others.
   std::uint32_t count(VolumePart part) const;
   // Whether the leaves of each group are known: neither LORD nor LTRI were left out.
   bool groups_have_leaves() const;
 
-  // index < count(part). O(its triangles); whole, trunk and leaves: O(vertices).
+  // index < count(part). Nothing where its triangles were left out. O(its triangles); whole, trunk and
+  // leaves: O(vertices).
   TreePart part(VolumePart part, std::uint32_t index = 0);
-  // Of some leaves, all in range.
-  TreePart of_leaves(std::span<const std::uint32_t> leaves);
 
  private:
+  // Of some leaves, all in range.
+  TreePart of_leaves(std::span<const std::uint32_t> leaves);
   void add(const CornerTriangle& triangle, std::uint32_t base, TreePart& part);
   void add(std::uint32_t point, TreePart& part);
   void close(const TreePart& part);
   const Tree& tree_;
+  const FoliageCells* cells_;
   std::vector<Double3> points_;
   std::uint32_t trunk_points_ = 0;
   std::vector<std::uint32_t> local_;  // of a point in the part that is being gathered, k_none outside

@@ -2,51 +2,87 @@
 
 #include "lib/analysis/tree/tree_parts.h"
 #include "lib/analysis/volumes/certify.h"
+#include "lib/analysis/volumes/motion_envelope.h"
+
+#include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
 namespace copse {
 namespace {
 
-std::vector<Double3> points_of(const VolumeSet& set, TreeParts& parts) {
-  const std::uint32_t index = set.index == k_none ? 0 : set.index;
-  if (index >= parts.count(set.part)) return {};
-  std::vector<Double3> out;
-  for (const std::uint32_t p : parts.part(set.part, index).points) out.push_back(parts.points()[p]);
-  return out;
-}
-
 // Of all vertices of all sets: some minutes. No honest file comes near it; a forged one must not take days.
 constexpr std::uint64_t k_most_tests = std::uint64_t{1} << 32;
 
-// Of a node: everything below it.
-std::vector<Double3> points_below(std::uint32_t node, const TreeVolumes& volumes, TreeParts& parts) {
-  std::vector<Double3> out;
-  for (std::uint32_t i = node; i < volumes.nodes[node].skip; ++i) {
-    if (volumes.nodes[i].item == k_none) continue;
-    const std::vector<Double3> part = points_of(volumes.sets[volumes.nodes[i].set], parts);
-    out.insert(out.end(), part.begin(), part.end());
+// What the sets of a file are to hold.
+class Contents {
+ public:
+  Contents(const Tree& tree, const TreeVolumes& volumes, const FoliageCells& cells)
+      : tree_(tree), volumes_(volumes), parts_(tree, &cells) {}
+
+  // None when the tree has no such part.
+  std::optional<std::vector<Double3>> of(const VolumeSet& set) {
+    std::vector<Double3> out;
+    if (set.part != VolumePart::node)
+      return add(set, set, out) ? std::optional(std::move(out)) : std::nullopt;
+    for (std::uint32_t i = set.index; i < volumes_.nodes[set.index].skip; ++i) {
+      if (volumes_.nodes[i].item == k_none) continue;
+      if (!add(volumes_.sets[volumes_.nodes[i].set], set, out)) return std::nullopt;
+    }
+    return out;
   }
-  return out;
-}
+
+ private:
+  // The vertices of one part, as `moving` sways.
+  bool add(const VolumeSet& part, const VolumeSet& moving, std::vector<Double3>& out) {
+    const std::uint32_t index = part.index == k_none ? 0 : part.index;
+    if (index >= parts_.count(part.part)) return false;
+    const std::vector<std::uint32_t> members = parts_.part(part.part, index).points;
+    if (moving.motion == VolumeMotion::rest || moving.sway == 0) {
+      for (const std::uint32_t p : members) out.push_back(parts_.points()[p]);
+      return true;
+    }
+    if (reach_.empty() || sway_ != moving.sway) {
+      sway_ = moving.sway;
+      reach_ = sway_reach(tree_, sway_ * std::numbers::pi / 180);
+    }
+    std::vector<Double3> points;
+    std::vector<double> radii;
+    for (const std::uint32_t p : members) points.push_back(parts_.points()[p]), radii.push_back(reach_[p]);
+    const std::vector<Double3> envelope = ball_envelope(points, radii);
+    out.insert(out.end(), envelope.begin(), envelope.end());
+    return true;
+  }
+
+  const Tree& tree_;
+  const TreeVolumes& volumes_;
+  TreeParts parts_;
+  std::vector<double> reach_;  // of every vertex
+  float sway_ = 0;             // by which
+};
 
 }  // namespace
 
-std::vector<std::string> check_certificates(const Tree& tree, const TreeVolumes& volumes) {
+std::vector<std::string> check_certificates(const Tree& tree, const TreeVolumes& volumes,
+                                            const FoliageCells& cells) {
   std::vector<std::string> failures;
-  TreeParts parts(tree);
+  Contents contents(tree, volumes, cells);
   std::uint64_t tests = 0;
-  for (const VolumeSet& set : volumes.sets) {
-    if (set.motion != VolumeMotion::rest) continue;
-    const std::vector<Double3> points =
-        set.part == VolumePart::node ? points_below(set.index, volumes, parts) : points_of(set, parts);
-    tests += (points.size() + 1) * set.count;
+  for (std::size_t s = 0; s < volumes.sets.size(); ++s) {
+    const VolumeSet& set = volumes.sets[s];
+    const auto points = contents.of(set);
+    if (!points) {
+      failures.push_back(fmt::format("VSET[{}]: the tree has no {}", s, set_name(set)));
+      continue;
+    }
+    tests += (points->size() + 1) * set.count;
     if (tests > k_most_tests)
       return failures.emplace_back("VSET: more volumes and vertices than can be judged"), failures;
     for (std::uint32_t i = set.first; i < set.first + set.count; ++i) {
       const VolumeRecord& r = volumes.volumes[i];
       if ((r.flags & VolumeRecord::certified) == 0) continue;
-      const Certificate c = certify(volumes.volume(i), points);
+      const Certificate c = certify(volumes.volume(i), *points);
       if (c.holds()) continue;
       failures.push_back(fmt::format("VOLU[{}]: {} ({}) of {} leaves {} of {} vertices outside", i,
                                      name_of(r.kind), r.method_name(), set_name(set), c.outside, c.points));

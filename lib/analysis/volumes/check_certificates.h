@@ -2,6 +2,7 @@
 // parts, in exact arithmetic.
 #pragma once
 
+#include "lib/formats/foliage_cells.h"
 #include "lib/formats/tree.h"
 #include "lib/formats/tree_volumes.h"
 
@@ -11,9 +12,12 @@
 namespace copse {
 
 // A line for each volume that does not: "VOLU[12]: sphere (minimal) of group 3 leaves 2 of 40 vertices
-// outside". Sets of nodes are judged by all parts below the node. Not judged: envelopes of a motion, which is
-// not in the file, and foliage cells, which this does not read. Both must be sound (check_tree,
-// check_volumes). O(vertices x volumes); given up, with a line that says so, after 2^32 of them.
-std::vector<std::string> check_certificates(const Tree& tree, const TreeVolumes& volumes);
+// outside", and one for each set whose part the tree does not have. Sets of nodes are judged by all parts
+// below the node; envelopes by everywhere that their vertices come to under the sway that is stored with them
+// (motion_envelope.h), or, where none is stored, by the vertices at rest. All must be sound (check_tree,
+// check_volumes, check_foliage_cells). O(vertices x volumes); given up, with a line that says so, after 2^32
+// of them.
+std::vector<std::string> check_certificates(const Tree& tree, const TreeVolumes& volumes,
+                                            const FoliageCells& cells = {});
 
 }  // namespace copse
