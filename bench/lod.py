@@ -31,10 +31,10 @@ def table(report, name):
 def bake(mesh, folder):
     tree, levels, page = folder / "tree.stree", folder / "lod.stree", folder / "report.json"
     run("treeprep", mesh, "-o", tree, "-q")
-    run("lodbake", tree, "-o", levels, "--discrete", "0.66,0.33,0.15", "--sweep", "--views", 12, "--report", page, "-q")
+    run("lodbake", tree, "-o", levels, "--discrete", "0.66,0.33,0.15", "--continuous", "--sweep", "--views", 12, "--report", page, "-q")
     report = json.loads(page.read_text())
     small = folder / "small.stree"
-    run("lodbake", tree, "-o", small, "--discrete", "0.5", "--divide", "even", "--encode", "small", "-q")
+    run("lodbake", tree, "-o", small, "--discrete", "0.5", "--continuous", "--divide", "even", "--encode", "small", "-q")
     return report, levels.stat().st_size - tree.stat().st_size, small.stat().st_size - tree.stat().st_size
 
 

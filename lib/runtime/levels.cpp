@@ -133,10 +133,26 @@ LodLevel search(const LodSpectra& spectra, const LodLevel& fine, const LodLevel&
   return high >= 1 ? coarse : between(spectra, fine, coarse, high);
 }
 
+// The finest of the discrete levels with at most so many triangles, the coarsest when none has.
+LodLevel discrete_of_triangles(const LodSpectra& spectra, std::uint64_t triangles) {
+  const LodLevel full = full_detail(spectra);
+  if (full.triangles <= triangles || spectra.discrete.empty()) return full;
+  const auto at = std::partition_point(spectra.discrete.begin(), spectra.discrete.end(),
+                                       [&](const LodLevel& l) { return l.triangles > triangles; });
+  return at == spectra.discrete.end() ? spectra.discrete.back() : *at;
+}
+
 }  // namespace
 
+LodLevel full_detail(const LodSpectra& spectra) {
+  if (!spectra.schedule.empty()) return spectra.schedule.front();
+  LodLevel full;
+  full.triangles = triangles_after(spectra.trunk, 0) + triangles_after(spectra.leaves, 0);
+  return full;
+}
+
 LodLevel level_of_triangles(const LodSpectra& spectra, std::uint64_t triangles) {
-  if (spectra.schedule.empty()) return {};
+  if (spectra.schedule.empty()) return discrete_of_triangles(spectra, triangles);
   const auto& knots = spectra.schedule;
   const auto at = std::partition_point(knots.begin(), knots.end(),
                                        [&](const LodLevel& l) { return l.triangles > triangles; });
@@ -146,18 +162,21 @@ LodLevel level_of_triangles(const LodSpectra& spectra, std::uint64_t triangles) 
 }
 
 LodLevel level_of_error(const LodSpectra& spectra, double error) {
-  if (spectra.schedule.empty()) return {};
-  const auto& knots = spectra.schedule;
+  const auto& knots = spectra.schedule.empty() ? spectra.discrete : spectra.schedule;
   const auto at =
       std::partition_point(knots.begin(), knots.end(), [&](const LodLevel& l) { return l.error <= error; });
-  return at == knots.begin() ? knots.front() : *std::prev(at);
+  return at == knots.begin() ? full_detail(spectra) : *std::prev(at);
 }
 
 LodLevel level_of_distance(const LodSpectra& spectra, double distance) {
-  if (spectra.schedule.empty()) return {};
+  if (spectra.schedule.empty()) {
+    const std::uint32_t number = choose_discrete(spectra, distance, k_none);
+    return number == 0 ? full_detail(spectra) : spectra.discrete[number - 1];
+  }
   if (!(distance > spectra.near)) return spectra.schedule.front();
-  if (distance >= spectra.far || !(spectra.near > 0)) return spectra.schedule.back();
-  const double most = spectra.schedule.front().triangles, share = spectra.near / distance;
+  if (!(spectra.near > 0)) return spectra.schedule.back();
+  const double most = spectra.schedule.front().triangles,
+               share = spectra.near / std::min<double>(distance, spectra.far);
   return level_of_triangles(
       spectra, static_cast<std::uint64_t>(
                    std::max(most * share * share, double{0} + spectra.schedule.back().triangles)));

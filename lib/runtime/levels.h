@@ -46,13 +46,19 @@ class LevelExtractor {
   std::size_t capacity_ = 0;
 };
 
+// No steps taken: all triangles, no error.
+LodLevel full_detail(const LodSpectra& spectra);
+
+// Where a file has no schedule, the three below choose between full detail and the discrete levels.
+//
 // The level of the schedule with at most so many triangles (the coarsest when none has), in between its
 // knots.
 LodLevel level_of_triangles(const LodSpectra& spectra, std::uint64_t triangles);
 // The coarsest level of the schedule whose error is at most `error` metres.
 LodLevel level_of_error(const LodSpectra& spectra, double error);
-// Continuous detail by distance: full up to `near`, the coarsest from `far` on; in between the triangles fall
-// with the square of the distance, as the size on screen does (hazard H-11). Not a number: full detail.
+// Continuous detail by distance: full up to `near`; then the triangles fall with the square of the distance,
+// as the size on screen does (hazard H-11), down to what is left at `far`, which stays (003, section 8.1).
+// Not a number: full detail.
 LodLevel level_of_distance(const LodSpectra& spectra, double distance);
 
 // The discrete level to draw at a distance: 0 is full detail, i + 1 is spectra.discrete[i]. `current` is what

@@ -129,7 +129,8 @@ TEST(Levels, ByDistanceFallsFromFullToCoarsest) {
   const LodSpectra s = two();
   EXPECT_EQ(level_of_distance(s, 0), s.schedule.front());
   EXPECT_EQ(level_of_distance(s, std::nan("")), s.schedule.front());
-  EXPECT_EQ(level_of_distance(s, 1e9), s.schedule.back());
+  EXPECT_LE(level_of_distance(s, 1e9).triangles, 604u / 100);
+  EXPECT_EQ(level_of_distance(s, 1e9), level_of_distance(s, 100)) << "beyond far nothing changes";
   std::uint32_t before = 1u << 30;
   for (double d = 10; d < 100; d += 3) {
     EXPECT_LE(level_of_distance(s, d).triangles, before);
@@ -150,7 +151,22 @@ TEST(Levels, HysteresisHoldsTheLevelInItsBand) {
   EXPECT_EQ(choose_discrete(s, std::nan(""), 2), 0u);
 }
 
-TEST(Levels, WithoutAScheduleThereIsFullDetail) {
+TEST(Levels, WithoutAScheduleTheDiscreteLevelsAreChosenFrom) {
+  LodSpectra s = two();
+  const LodLevel full = s.schedule.front();
+  s.schedule.clear();
+  EXPECT_EQ(full_detail(s).triangles, full.triangles);
+  EXPECT_EQ(level_of_triangles(s, full.triangles), full_detail(s));
+  EXPECT_EQ(level_of_triangles(s, full.triangles - 1), s.discrete[0]);
+  EXPECT_EQ(level_of_triangles(s, s.discrete[1].triangles), s.discrete[1]);
+  EXPECT_EQ(level_of_triangles(s, 0), s.discrete[2]);
+  EXPECT_EQ(level_of_error(s, 0.05), full_detail(s));
+  EXPECT_EQ(level_of_error(s, 0.5), s.discrete[1]);
+  EXPECT_EQ(level_of_distance(s, 99), full_detail(s));
+  EXPECT_EQ(level_of_distance(s, 600), s.discrete[1]);
+}
+
+TEST(Levels, WithoutAnyLevelsThereIsFullDetail) {
   EXPECT_EQ(level_of_triangles({}, 5), LodLevel{});
   EXPECT_EQ(level_of_error({}, 5), LodLevel{});
   EXPECT_EQ(choose_discrete({}, 5, 0), 0u);

@@ -59,6 +59,39 @@ TEST_F(Lodbake, EveryLevelCanBeTakenFromTheFile) {
   EXPECT_LT(triangles({"--max-error", "100"}), full / 10);
 }
 
+TEST_F(Lodbake, WithoutContinuousTheFileHasWhatTheDiscreteLevelsNeedAndNoMore) {
+  ASSERT_EQ(bake({"--discrete", "0.5,0.2", "--continuous"}).status, 0);
+  const auto everything = std::filesystem::file_size(out_);
+  const std::size_t first = triangles({"--level", "1"}), second = triangles({"--level", "2"});
+  ASSERT_EQ(bake({"--discrete", "0.5,0.2"}).status, 0);
+  EXPECT_LT(std::filesystem::file_size(out_), everything);
+  EXPECT_EQ(triangles({"--level", "1"}), first);
+  EXPECT_EQ(triangles({"--level", "2"}), second);
+  EXPECT_EQ(triangles({"--ratio", "0.4"}), second) << "the finest level within";
+  const Outcome o = run_process({"treedump", out_, "--export", folder_.file("x.obj"), "--ratio", "0.01"});
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.err.find("--continuous"), std::string::npos) << o.err;
+}
+
+TEST_F(Lodbake, AMeshIsToldToGoThroughTreeprep) {
+  const Outcome o = run_process({"lodbake", folder_.file("oak.obj"), "-o", out_});
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(line_count(o.err), 1u);
+  EXPECT_NE(o.err.find("treeprep " + folder_.file("oak.obj")), std::string::npos) << o.err;
+}
+
+TEST_F(Lodbake, TreedumpListsTheLevelsAndTheSpectra) {
+  ASSERT_EQ(bake({"--discrete", "0.5,0.2", "--continuous"}).status, 0);
+  const std::string text = run_process({"treedump", out_}).out;
+  for (const char* part : {"0: 236 triangles, full detail", "hysteresis 10 %", "trunk by radii",
+                           "leaves by leaf collapses", "every level in between"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  const auto json = nlohmann::json::parse(run_process({"treedump", out_, "--json"}).out);
+  ASSERT_EQ(json["levels"]["discrete"].size(), 2u);
+  EXPECT_LE(json["levels"]["discrete"][1]["share"], 0.2);
+  EXPECT_EQ(json["levels"]["spectra"][0]["method"], "radii");
+}
+
 TEST_F(Lodbake, TheTreeItselfIsCopiedUntouched) {
   ASSERT_EQ(bake({}).status, 0);
   const Outcome diff = run_process({"treedump", tree_, out_, "--diff", "-q"});

@@ -297,7 +297,7 @@ TEST(Treeplay, NumbersTheFramesOfAPathAndCountsWhatItDrew) {
   EXPECT_EQ(line_count(text), 4u);
   EXPECT_EQ(text.substr(0, text.find('\n')),
             "frame,t_frame,t_application,t_render,t_estimated,budget,triangles,lines,points,instances_tested,"
-            "instances_drawn,nodes_visited,plane_tests,missed,needless,ssim");
+            "instances_drawn,nodes_visited,plane_tests,missed,needless,ssim,level,level_error,distance");
   EXPECT_NE(text.find(",,,7,0,0,1,1,,"), std::string::npos) << text;
 }
 

@@ -62,7 +62,8 @@ void add_options(CLI::App& app, Options& options) {
       ->check(number_from(0))
       ->excludes(discrete);
   levels->add_flag("--continuous", options.continuous,
-                   "every level in between, as a schedule over both spectra");
+                   "store every level in between too; without it the file has only what the discrete "
+                   "levels need");
   levels->add_option("--min-triangles", options.min_triangles, "no level has fewer")
       ->type_name("N")
       ->capture_default_str();

@@ -1,5 +1,6 @@
 #include "tools/lodbake/run.h"
 
+#include "lib/analysis/lod/discrete_spectra.h"
 #include "lib/analysis/lod/floating_leaves.h"
 #include "lib/formats/spectrum_file.h"
 #include "lib/formats/tree_file.h"
@@ -15,6 +16,17 @@
 
 namespace copse::lodbake {
 namespace {
+
+// A mesh is no tree yet: says what makes one of it.
+Result<TreeFile> open_tree(const Options& options) {
+  auto file = TreeFile::open(options.input);
+  const std::filesystem::path extension = options.input.extension();
+  if (file || file.error().fault != Fault::refused || extension == ".tree" || extension == ".stree")
+    return file;
+  const std::filesystem::path tree = std::filesystem::path(options.input).replace_extension(".stree");
+  return refuse(options.input.string(), "is no .tree or .stree",
+                fmt::format("run treeprep first: treeprep {} -o {}", options.input.string(), tree.string()));
+}
 
 Result<void> check_output(const Options& options, const TreeFile& file) {
   const std::string extension = options.output.extension().string();
@@ -99,7 +111,9 @@ Result<void> write(const Options& options, const TreeFile& file, const BakedSpec
                    Context& context) {
   Stage stage = context.stage("write");
   ContainerWriter writer(file.container());
-  const auto errors = put_spectra(writer, baked.spectra, options.coding);
+  // Without --continuous the file has what the discrete levels need and no more.
+  const LodSpectra few = options.continuous ? LodSpectra{} : discrete_spectra(baked.spectra);
+  const auto errors = put_spectra(writer, options.continuous ? baked.spectra : few, options.coding);
   if (!errors) return std::unexpected(errors.error());
   if (baked.cells) {
     if (auto done = put_foliage_cells(writer, *baked.cells); !done) return done;
@@ -123,7 +137,7 @@ Result<void> run(const Options& options, Context& context) {
   if (auto right = check(options); !right) return right;
   if (auto writable = context.check_output(options.output); !writable) return writable;
   context.read(options.input, true);
-  auto file = TreeFile::open(options.input);
+  auto file = open_tree(options);
   if (!file) return std::unexpected(file.error());
   if (auto right = check_output(options, *file); !right) return right;
   auto tree = file->load();

@@ -59,7 +59,17 @@ constexpr std::array k_sections{Name{"HEAD", "header"},
                                 Name{"VNOD", "hierarchy of volumes"},
                                 Name{"LSTR", "level-of-detail spectrum of the trunk"},
                                 Name{"LSLV", "level-of-detail spectrum of the leaves"},
-                                Name{"LSLD", "levels of detail"}};
+                                Name{"LSLD", "levels of detail"},
+                                Name{"FCEL", "cells of the foliage"},
+                                Name{"FORD", "order of the leaves in their cells"},
+                                Name{"FVWS", "views of the foliage"},
+                                Name{"FVTR", "triangles of these views"},
+                                Name{"FVIS", "visibility of the cells"},
+                                Name{"FPAR", "parameters of foliage pruning"},
+                                Name{"IMPO", "impostor: its views"},
+                                Name{"IMPA", "impostor: colours"},
+                                Name{"IMPN", "impostor: normals"},
+                                Name{"IMPD", "impostor: depths"}};
 
 void note(Dump& dump, const Error& error) {
   if (!dump.problem) dump.problem = error;

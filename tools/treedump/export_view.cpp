@@ -45,9 +45,14 @@ Result<LodLevel> chosen_level(const DumpOptions& options, const LodSpectra& spec
     return n == 0 ? LodLevel{} : spectra.discrete[n - 1];
   }
   if (options.max_error) return level_of_error(spectra, *options.max_error);
-  if (spectra.schedule.empty()) return no_level(options, "holds no schedule, only discrete levels");
-  const double full = spectra.schedule.front().triangles;
-  return level_of_triangles(spectra, static_cast<std::uint64_t>(std::floor(*options.ratio * full)));
+  const auto wanted = static_cast<std::uint64_t>(std::floor(*options.ratio * full_detail(spectra).triangles));
+  const LodLevel level = level_of_triangles(spectra, wanted);
+  if (spectra.schedule.empty() && level.triangles > wanted)
+    return refuse(options.files.front().string(),
+                  fmt::format("holds discrete levels alone, and the coarsest has {} triangles, not {}",
+                              level.triangles, wanted),
+                  "bake with lodbake --continuous, or name a level");
+  return level;
 }
 
 // The whole tree at a level. A part without a spectrum is the tree's own.

@@ -2,6 +2,7 @@
 #include "lib/formats/tree_volumes.h"
 #include "tools/treedump/element.h"
 #include "tools/treedump/json.h"
+#include "tools/treedump/levels_view.h"
 #include "tools/treedump/views.h"
 
 #include <fmt/format.h>
@@ -219,6 +220,7 @@ std::string json_text(const Dump& dump, bool arrays) {
   add_sections(json, dump);
   if (dump.file) add_omissions(json, *dump.file);
   if (dump.file) add_volumes(json, *dump.file, arrays);
+  if (dump.file) add_levels(json, *dump.file);
   if (dump.file && arrays) add_arrays(json, dump);
   json.close();
   return json.take();

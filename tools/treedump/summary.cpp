@@ -1,4 +1,5 @@
 #include "lib/formats/tree_volumes.h"
+#include "tools/treedump/levels_view.h"
 #include "tools/treedump/text.h"
 #include "tools/treedump/views.h"
 
@@ -217,6 +218,7 @@ std::string summary_text(const Dump& dump) {
     add_hierarchy(out, dump);
     add_leaves(out, dump);
     add_volumes(out, dump);
+    for (const auto& [label, text] : level_lines(*dump.file)) add(out, label.c_str(), text);
     add_materials(out, dump);
     add(out, "made by", provenance_text(dump.tree.provenance));
   } else {

@@ -1,5 +1,6 @@
 #include "lib/analysis/volumes/check_certificates.h"
 #include "lib/formats/ecosystem_file.h"
+#include "tools/treedump/levels_view.h"
 #include "tools/treedump/views.h"
 
 #include <algorithm>
@@ -19,11 +20,13 @@ Result<std::vector<std::string>> verify_file(const std::filesystem::path& path) 
   if (file) {
     auto failures = file->verify();
     if (!failures.empty()) return failures;
+    failures = verify_levels(*file);
     const auto volumes = load_volumes(*file);
     const auto tree = file->load();
     const auto cells = read_foliage_cells(*file);
     if (!volumes || volumes->empty() || !tree || !cells) return failures;
-    return check_certificates(*tree, *volumes, *cells);
+    for (std::string& line : check_certificates(*tree, *volumes, *cells)) failures.push_back(std::move(line));
+    return failures;
   }
   // Header or table do not fit together; the checksums can be checked all the same.
   std::vector<std::string> failures{file.error().what};

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <charconv>
+#include <climits>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -136,6 +137,28 @@ void add_options(CLI::App& app, Options& options) {
       ->type_name("EYE,TARGET[,FOV]");
   camera->add_option("--path", options.path, "how the camera moves: orbit, linear, or keys from a JSON file")
       ->type_name("orbit|linear|FILE.json");
+
+  CLI::Option_group* detail = app.add_option_group("Level of detail (of a tree that lodbake has been over)");
+  CLI::Option* level = detail->add_option("--level", options.detail.level, "this discrete level; 0 is full")
+                           ->check(whole_number_from(0, INT_MAX))
+                           ->type_name("N");
+  CLI::Option* ratio = detail->add_option("--ratio", options.detail.ratio, "this share of the triangles")
+                           ->check(number_between(0, 1))
+                           ->type_name("R");
+  CLI::Option* error = detail
+                           ->add_option("--max-error", options.detail.max_error,
+                                        "the fewest triangles that err by no more metres")
+                           ->check(number_from(0))
+                           ->type_name("E");
+  CLI::Option* lod =
+      add_choice<Lod>(*detail, "--lod", options.detail.lod,
+                      "by distance: the discrete levels with their hysteresis (auto) or everything in "
+                      "between (spectrum)",
+                      {{"off", Lod::off}, {"spectrum", Lod::spectrum}, {"auto", Lod::automatic}});
+  lod->type_name("off|spectrum|auto");
+  level->excludes(ratio)->excludes(error)->excludes(lod);
+  ratio->excludes(error)->excludes(lod);
+  error->excludes(lod);
 
   CLI::Option_group* look = app.add_option_group("Look");
   look->add_option("--show", options.show, "what is drawn: groups are the spheres round the groups of leaves")

@@ -28,6 +28,7 @@ struct Options {
   std::optional<std::uint64_t> count;
   int samples = 0;  // 0: 16 for pictures, 4 for a window
   bool headless = false, unlit = false, no_ground = false;
+  DetailWish detail;
   std::filesystem::path stats;
   std::uint64_t exit_after = 0;  // frames after which the window closes; 0: never
 };

@@ -29,6 +29,17 @@ constexpr ImGuiWindowFlags k_panel = ImGuiWindowFlags_NoDecoration | ImGuiWindow
                                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
                                      ImGuiWindowFlags_NoInputs;
 
+void level_line(const Overlay::Facts& facts) {
+  const ShownLevel& shown = facts.plan->shown;
+  const std::size_t last = facts.scene->levels->spectra().discrete.size();
+  if (shown.number == k_none)
+    ImGui::Text("level between 0 and %zu%s", last, facts.by_distance ? ", by distance" : "");
+  else
+    ImGui::Text("level %u of %zu%s", shown.number, last, facts.by_distance ? ", by distance" : "");
+  ImGui::Text("errs by %.3g m at most, seen from %.4g m", static_cast<double>(shown.level.error),
+              facts.plan->distance);
+}
+
 void facts_panel(const Overlay::Facts& facts) {
   ImGui::SetNextWindowPos({12, 12});
   ImGui::SetNextWindowBgAlpha(0.55f);
@@ -44,6 +55,7 @@ void facts_panel(const Overlay::Facts& facts) {
                 std::size_t{scene.skeleton->levels}, scene.skeleton->leaves.size(),
                 scene.skeleton->groups.size());
   }
+  if (scene.levels) level_line(facts);
   ImGui::Text("drawn: %llu triangles, %llu lines, %llu points",
               static_cast<unsigned long long>(facts.plan->triangles),
               static_cast<unsigned long long>(facts.plan->lines),
@@ -67,6 +79,8 @@ void help_panel() {
       "1 2 3 4        surface, skeleton, both, groups of leaves\n"
       "L              light on and off\n"
       "G              ground on and off\n"
+      "- +            coarser, finer level of detail\n"
+      "A              level by distance\n"
       "P              follow --path, stop\n"
       "S              screenshot into this folder\n"
       "H              this help\n"

@@ -21,6 +21,7 @@ class Overlay {
     double frame_seconds = 0;  // of this frame, without the overlay
     const char* message = "";  // of the last action
     bool help = false;
+    bool by_distance = false;  // the level is
   };
   void draw(const Facts& facts);
 };

@@ -61,13 +61,13 @@ Result<void> check_size(const Renderer& renderer, const Plan& plan) {
               fmt::format("ask for at most {0}x{0}", largest));
 }
 
-Result<void> draw_frames(Renderer& renderer, const CameraPath& path, const Plan& plan, Statistics& statistics,
-                         Context& context) {
+Result<void> draw_frames(Renderer& renderer, const CameraPath& path, const Plan& plan, LevelChoice& choice,
+                         Statistics& statistics, Context& context) {
   Stage stage = context.stage("frames");
   for (std::uint64_t i = 0; i < plan.count; ++i) {
     const auto start = Clock::now();
     const FramePlan frame =
-        renderer.plan(path.at(path.moment(i, plan.count)), plan.look, plan.width, plan.height);
+        renderer.plan(path.at(path.moment(i, plan.count)), plan.look, plan.width, plan.height, choice);
     const auto decided = Clock::now();
     if (auto done = renderer.draw_picture(frame); !done) return done;
     glFinish();
@@ -81,7 +81,7 @@ Result<void> draw_frames(Renderer& renderer, const CameraPath& path, const Plan&
   return {};
 }
 
-Result<void> run_headless(const Scene& scene, const CameraPath& path, const Plan& plan,
+Result<void> run_headless(const Scene& scene, const CameraPath& path, const Plan& plan, LevelChoice& choice,
                           Statistics& statistics, Context& context) {
   std::unique_ptr<GlContext> gl;
   {
@@ -100,10 +100,11 @@ Result<void> run_headless(const Scene& scene, const CameraPath& path, const Plan
     if (auto done = check_size(*renderer, plan); !done) return done;
     // A first small frame lets the driver finish its shaders, so that the first one measured is like the
     // rest.
-    if (auto done = renderer->draw_picture(renderer->plan(path.at(0), plan.look, 16, 16)); !done) return done;
+    if (auto done = renderer->draw_picture(renderer->plan(path.at(0), plan.look, 16, 16, choice)); !done)
+      return done;
     glFinish();
   }
-  return draw_frames(*renderer, path, plan, statistics, context);
+  return draw_frames(*renderer, path, plan, choice, statistics, context);
 }
 
 }  // namespace
@@ -133,11 +134,17 @@ Result<void> run(const Options& options, Context& context) {
                 "write pictures with --frames NAME.png, or only measure with --headless");
   }
   plan->settings.lights = window || plan->look.lit;
-  const auto scene = load_scene(options.input, plan->settings.lights, context);
+  const bool levels = window || options.detail.needs_levels();
+  const auto scene = load_scene(options.input, plan->settings.lights, levels, context);
   if (!scene) return std::unexpected(scene.error());
+  auto choice = LevelChoice::make(scene->levels, options.detail, options.input);
+  if (!choice) return std::unexpected(choice.error());
   if (plan->look.show != Show::surface && !scene->skeleton) {
-    return fail(Fault::usage, options.input.string(), "is a mesh and has no hierarchy to show",
-                "make a tree of it with treeprep, or leave --show out");
+    return scene->is_tree
+               ? fail(Fault::usage, options.input.string(), "has no hierarchy, lines or leaf groups",
+                      "prepare it without leaving them out, or leave --show out")
+               : fail(Fault::usage, options.input.string(), "is a mesh and has no hierarchy to show",
+                      "make a tree of it with treeprep, or leave --show out");
   }
   const double aspect = static_cast<double>(plan->width) / plan->height;
   const auto path = make_path(options, plan->camera.value_or(framing(*scene, aspect)));
@@ -145,8 +152,8 @@ Result<void> run(const Options& options, Context& context) {
   if (options.path.ends_with(".json")) context.read(options.path, true);
 
   Statistics statistics;
-  const auto done = window ? run_viewer(*scene, *path, options, *plan, statistics, context)
-                           : run_headless(*scene, *path, *plan, statistics, context);
+  const auto done = window ? run_viewer(*scene, *path, options, *plan, *choice, statistics, context)
+                           : run_headless(*scene, *path, *plan, *choice, statistics, context);
   if (!done) return done;
   context.report().tables.push_back(statistics.table());
   if (options.stats.empty()) return {};

@@ -57,6 +57,7 @@ Result<std::unique_ptr<Renderer>> Renderer::make(const Scene& scene, const Rende
   if (scene.skeleton) {
     if (auto done = r->skeleton_.upload(*scene.skeleton); !done) return std::unexpected(done.error());
   }
+  if (scene.levels) r->shown_.level = full_detail(scene.levels->spectra());
   if (auto done = r->make_lights(); !done) return std::unexpected(done.error());
   return r;
 }
@@ -155,7 +156,17 @@ void Renderer::draw_shadow_map() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int height) const {
+// The shadow goes with the level: a coarse tree under the shadow of a fine one would be dappled wrongly.
+void Renderer::take_level(const ShownLevel& shown) {
+  if (!scene_.levels || shown.level == shown_.level) return;
+  scene_.levels->take(shown.level, level_);
+  surfaces_.replace(level_.indices, level_.ranges);
+  if (settings_.lights) draw_shadow_map();
+  shown_ = shown;
+}
+
+FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int height,
+                         LevelChoice& choice) const {
   FramePlan plan;
   plan.look = look;
   plan.width = width;
@@ -176,11 +187,14 @@ FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int 
     plan_ecosystem(camera, plan);
     return plan;
   }
+  plan.distance = scene_.distance_from(eye);
+  plan.shown = choice.at(plan.distance);
   plan.instances_tested = 1;
   plan.tree_visible = classify(frustum_of(plan.view), eye, box, &plan.plane_tests) != Visibility::outside;
   if (!plan.tree_visible) return plan;
   plan.instances_drawn = 1;
-  if (shows_surface(look.show)) plan.triangles = scene_.triangles();
+  if (shows_surface(look.show))
+    plan.triangles = scene_.levels ? scene_.levels->triangles(plan.shown.level) : scene_.triangles();
   if (look.show != Show::surface) {
     plan.lines = skeleton_.lines();
     plan.points = skeleton_.points();
@@ -240,6 +254,7 @@ Result<void> Renderer::draw(const FramePlan& plan, GLuint framebuffer) {
       std::clamp<std::int64_t>(k_tile_fragments / row, 1, std::min(plan.height, largest_size_ / s)));
   if (auto done = fit_tile_buffers(tile_width * s, tile_height * s); !done) return done;
   if (scene_.eco) surfaces_.show(scene_, plan.runs);
+  take_level(plan.shown);
   const Mat4 camera = plan.view.rotation;
   for (int y = 0; y < plan.height; y += tile_height) {
     for (int x = 0; x < plan.width; x += tile_width) {

@@ -7,6 +7,7 @@
 #include "tools/treeplay/scene.h"
 #include "tools/treeplay/skeleton_pass.h"
 #include "tools/treeplay/surface_pass.h"
+#include "tools/treeplay/tree_levels.h"
 
 #include <cstdint>
 #include <memory>
@@ -38,6 +39,8 @@ struct FramePlan {
   int width = 0, height = 0;
   bool tree_visible = true;
   std::vector<CopyRun> runs;  // of an ecosystem: what is seen
+  ShownLevel shown;           // of a tree with levels
+  double distance = 0;        // of the eye from the middle of what is drawn, metres
   // What was done and what will be drawn, for the statistics.
   std::uint64_t triangles = 0, lines = 0, points = 0;
   std::uint64_t instances_tested = 0, instances_drawn = 0, plane_tests = 0;
@@ -48,7 +51,8 @@ class Renderer {
   // Uploads the scene, which must outlive the renderer. Needs a current context of GL 3.3 core.
   static Result<std::unique_ptr<Renderer>> make(const Scene& scene, const RenderSettings& settings);
 
-  FramePlan plan(const Camera& camera, const Look& look, int width, int height) const;
+  // `choice`: of a tree with levels, decides on the level.
+  FramePlan plan(const Camera& camera, const Look& look, int width, int height, LevelChoice& choice) const;
 
   // Into a framebuffer of the plan's size: 0 is the window.
   Result<void> draw(const FramePlan& plan, GLuint framebuffer);
@@ -65,6 +69,7 @@ class Renderer {
   Result<void> make_programs();
   Result<void> make_lights();
   void draw_shadow_map();
+  void take_level(const ShownLevel& shown);
   void plan_ecosystem(const Camera& camera, FramePlan& plan) const;
   Result<void> fit_tile_buffers(int width, int height);
   void set_common(const Program& program, const Tile& tile) const;
@@ -79,6 +84,8 @@ class Renderer {
   int sub_pixels_ = 1;    // a side
   int multisamples_ = 1;  // what the driver gives
   int largest_size_ = 0;
+  ShownLevel shown_;    // what the surfaces and the shadow map hold
+  TreeGeometry level_;  // its indices and ranges
   SurfacePass surfaces_;
   SkeletonPass skeleton_;
   Program ground_, backdrop_, resolve_;

@@ -29,6 +29,7 @@ std::uint64_t Scene::triangles() const {
 
 std::vector<Float3> Scene::outline() const {
   std::vector<Float3> points;
+  if (levels) return full_detail;
   if (!eco) {
     for (const DrawVertex& v : geometry.vertices) points.push_back(v.position);
     return points;
@@ -47,6 +48,11 @@ Float3 moved(const DrawCopy& copy, const Float3& p) {
 double Scene::size() const {
   const double diagonal = length(bounds().extent());
   return diagonal > 0 ? diagonal : 1;
+}
+
+double Scene::distance_from(const Double3& eye) const {
+  const DoubleBox box = bounds();
+  return distance(eye, box.empty() ? geometry.origin : box.centre());
 }
 
 Double3 Scene::foot() const {
@@ -99,7 +105,7 @@ void load_images(Scene& scene, const std::vector<Texture>& textures, const fs::p
   }
 }
 
-Result<void> take_tree(Scene& scene, const fs::path& path, Context& context) {
+Result<void> take_tree(Scene& scene, const fs::path& path, bool levels, Context& context) {
   auto file = TreeFile::open(path);
   if (!file) return std::unexpected(file.error());
   auto tree = file->load();
@@ -107,6 +113,18 @@ Result<void> take_tree(Scene& scene, const fs::path& path, Context& context) {
   context.read(path, true);
   scene.is_tree = true;
   scene.geometry = make_geometry(*tree);
+  if (levels) {
+    auto loaded = TreeLevels::load(*file, *tree);
+    if (!loaded) return std::unexpected(loaded.error());
+    scene.levels = std::move(*loaded);
+  }
+  if (scene.levels) {
+    // The camera looks at full detail, whatever the level.
+    const FloatBox bounds = scene.geometry.bounds;
+    for (const DrawVertex& v : scene.geometry.vertices) scene.full_detail.push_back(v.position);
+    scene.geometry = scene.levels->geometry();
+    scene.geometry.bounds = bounds;
+  }
   scene.skeleton = make_skeleton(*tree);
   scene.materials = tree->materials;
   load_images(scene, tree->textures, path, context);
@@ -125,9 +143,10 @@ Result<void> take_mesh(Scene& scene, const fs::path& path, Context& context) {
   return {};
 }
 
-Result<void> take(Scene& scene, const fs::path& path, Context& context) {
+Result<void> take(Scene& scene, const fs::path& path, bool levels, Context& context) {
   if (extension_of(path) == ".eco") return take_ecosystem(scene, path, context);
-  const auto taken = is_tree_file(path) ? take_tree(scene, path, context) : take_mesh(scene, path, context);
+  const auto taken =
+      is_tree_file(path) ? take_tree(scene, path, levels, context) : take_mesh(scene, path, context);
   scene.copies.resize(1);
   scene.groups = {{.range_count = static_cast<std::uint32_t>(scene.geometry.ranges.size()),
                    .instance_count = 1,
@@ -153,12 +172,12 @@ std::optional<Image> read_texture(const Texture& texture, std::size_t index, con
   return std::move(*image);
 }
 
-Result<Scene> load_scene(const fs::path& path, bool lights, Context& context) {
+Result<Scene> load_scene(const fs::path& path, bool lights, bool levels, Context& context) {
   Scene scene;
   scene.name = path.filename().string();
   {
     Stage stage = context.stage("load");
-    auto taken = take(scene, path, context);
+    auto taken = take(scene, path, levels, context);
     if (!taken) return std::unexpected(taken.error());
     stage.items(scene.triangles(), "triangles");
   }

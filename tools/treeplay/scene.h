@@ -9,6 +9,7 @@
 #include "lib/runtime/sky_light.h"
 #include "lib/runtime/tree_geometry.h"
 #include "tools/common/tool.h"
+#include "tools/treeplay/tree_levels.h"
 
 #include <array>
 #include <cstdint>
@@ -46,19 +47,22 @@ struct Scene {
   std::vector<DrawGroup> groups;  // at least one; of an ecosystem the first is its terrain
   std::vector<DrawCopy> copies;   // group after group
   std::optional<Ecosystem> eco;
-  std::vector<CopyRun> runs;             // of an ecosystem, block after block
-  std::vector<std::uint32_t> first_run;  // blocks + 1
-  std::optional<Skeleton> skeleton;      // of a tree that has a hierarchy, lines or leaf groups
+  std::vector<CopyRun> runs;                 // of an ecosystem, block after block
+  std::vector<std::uint32_t> first_run;      // blocks + 1
+  std::shared_ptr<const TreeLevels> levels;  // of a tree that has them, when they were asked for
+  std::vector<Float3> full_detail;           // then: the vertices of full detail
+  std::optional<Skeleton> skeleton;          // of a tree that has a hierarchy, lines or leaf groups
   std::vector<Material> materials;
   std::vector<std::optional<Image>> images;  // one a texture; empty: could not be read
   SkyLight sky;
   double ground = 0;  // absolute height
 
-  std::uint64_t triangles() const;      // of all instances
-  std::vector<Float3> outline() const;  // points whose box and silhouette are the scene's
-  DoubleBox bounds() const;             // absolute
-  double size() const;                  // the diagonal of the bounds; 1 when there is nothing
-  Double3 foot() const;                 // where it stands: the middle of its bounds, on the ground
+  std::uint64_t triangles() const;                 // of all instances
+  std::vector<Float3> outline() const;             // points whose box and silhouette are the scene's
+  DoubleBox bounds() const;                        // absolute
+  double size() const;                             // the diagonal of the bounds; 1 when there is nothing
+  double distance_from(const Double3& eye) const;  // to the middle of the bounds
+  Double3 foot() const;                            // where it stands: the middle of its bounds, on the ground
 };
 
 // The material of a range, with a colour that suits its part when the file names none.
@@ -71,6 +75,7 @@ std::optional<Image> read_texture(const Texture& texture, std::size_t index,
 // Reads a .tree, .stree or .eco, or any mesh that treeprep reads. Images that cannot be read are warned about
 // and give way to the material's mean colour. `lights`: whether anything lit will be drawn; if not, `sky` is
 // open.
-Result<Scene> load_scene(const std::filesystem::path& path, bool lights, Context& context);
+// `levels`: whether the tree's levels of detail will be drawn; a mesh or an ecosystem has none.
+Result<Scene> load_scene(const std::filesystem::path& path, bool lights, bool levels, Context& context);
 
 }  // namespace copse::treeplay

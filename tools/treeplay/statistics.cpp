@@ -9,20 +9,30 @@
 
 namespace copse::treeplay {
 
+namespace {
+
+// A level in between has no number.
+std::string level_of(const FramePlan& plan) {
+  const std::string number = plan.shown.number == k_none ? "" : fmt::format("{}", plan.shown.number);
+  return fmt::format("{},{:.6g},{:.6g}", number, plan.shown.level.error, plan.distance);
+}
+
+}  // namespace
+
 void Statistics::add(const FramePlan& plan, double t_application, double t_render) {
   rows_.push_back({t_application, t_render, plan.triangles, plan.lines, plan.points, plan.instances_tested,
-                   plan.instances_drawn, plan.plane_tests});
+                   plan.instances_drawn, plan.plane_tests, level_of(plan)});
 }
 
 std::string Statistics::csv() const {
   std::string text =
       "frame,t_frame,t_application,t_render,t_estimated,budget,triangles,lines,points,instances_tested,"
-      "instances_drawn,nodes_visited,plane_tests,missed,needless,ssim\n";
+      "instances_drawn,nodes_visited,plane_tests,missed,needless,ssim,level,level_error,distance\n";
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& r = rows_[i];
-    fmt::format_to(std::back_inserter(text), "{},{:.9f},{:.9f},{:.9f},,,{},{},{},{},{},,{},,,\n", i,
+    fmt::format_to(std::back_inserter(text), "{},{:.9f},{:.9f},{:.9f},,,{},{},{},{},{},,{},,,,{}\n", i,
                    r.application + r.render, r.application, r.render, r.triangles, r.lines, r.points,
-                   r.tested, r.drawn, r.plane_tests);
+                   r.tested, r.drawn, r.plane_tests, r.level);
   }
   return text;
 }

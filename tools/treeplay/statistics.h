@@ -24,6 +24,7 @@ class Statistics {
   struct Row {
     double application = 0, render = 0;
     std::uint64_t triangles = 0, lines = 0, points = 0, tested = 0, drawn = 0, plane_tests = 0;
+    std::string level;  // its number, its error and the distance, as the CSV has them
   };
   std::vector<Row> rows_;
 };

@@ -145,6 +145,18 @@ Result<void> SurfacePass::upload(const Scene& scene) {
   return check_gl("uploading the model");
 }
 
+void SurfacePass::replace(const std::vector<std::uint32_t>& indices, const std::vector<DrawRange>& ranges) {
+  glBindVertexArray(array_.get());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)),
+               indices.data(), GL_DYNAMIC_DRAW);
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    ranges_[i].count = static_cast<GLsizei>(ranges[i].index_count);
+    ranges_[i].first =
+        reinterpret_cast<const void*>(sizeof(std::uint32_t) * std::size_t{ranges[i].first_index});  // NOLINT
+  }
+}
+
 // GL 3.3 has no base instance: the attributes of a group's copies begin elsewhere instead.
 void SurfacePass::point_at(std::size_t first_copy) const {
   glBindBuffer(GL_ARRAY_BUFFER, copies_.get());

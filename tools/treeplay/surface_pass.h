@@ -13,6 +13,9 @@ class SurfacePass {
   static Result<SurfacePass> make();
   Result<void> upload(const Scene& scene);
 
+  // Other triangles of the same vertices: ranges as many as the scene's, in its order.
+  void replace(const std::vector<std::uint32_t>& indices, const std::vector<DrawRange>& ranges);
+
   // The runs of copies that the next draws show: everything until it is called. Uploads them.
   void show(const Scene& scene, const std::vector<CopyRun>& runs);
 

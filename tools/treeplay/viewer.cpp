@@ -70,10 +70,12 @@ class Window final : public GlContext {
 // The window's state between frames. GLFW's callbacks find it by the window's user pointer.
 class Viewer {
  public:
-  Viewer(const Scene& scene, const CameraPath& path, const Options& options, const Plan& plan, Window& window)
+  Viewer(const Scene& scene, const CameraPath& path, const Options& options, const Plan& plan,
+         LevelChoice& choice, Window& window)
       : scene_(scene),
         path_(path),
         plan_(plan),
+        choice_(choice),
         window_(window.get()),
         orbit_(path.at(0)),
         look_(plan.look),
@@ -96,6 +98,7 @@ class Viewer {
   static Viewer& self(GLFWwindow* window) { return *static_cast<Viewer*>(glfwGetWindowUserPointer(window)); }
   void touch() { stale_ = true; }
   void key(int key);
+  void level_key(int key);
   void scroll(double steps);
   void move(double x, double y);
   void take_over();
@@ -106,6 +109,7 @@ class Viewer {
   const Scene& scene_;
   const CameraPath& path_;
   const Plan& plan_;
+  LevelChoice& choice_;
   GLFWwindow* window_;
   std::unique_ptr<Renderer> renderer_;
   OrbitCamera orbit_;
@@ -134,6 +138,13 @@ void Viewer::key(int key) {
       else
         look_.show = key == GLFW_KEY_2 ? Show::skeleton : key == GLFW_KEY_3 ? Show::both : Show::groups;
       break;
+    case GLFW_KEY_MINUS:
+    case GLFW_KEY_KP_SUBTRACT:
+    case GLFW_KEY_EQUAL:
+    case GLFW_KEY_KP_ADD:
+    case GLFW_KEY_A:
+      level_key(key);
+      break;
     case GLFW_KEY_L:
       look_.lit = !look_.lit;
       break;
@@ -160,6 +171,15 @@ void Viewer::key(int key) {
       return;
   }
   touch();
+}
+
+void Viewer::level_key(int key) {
+  if (!scene_.levels)
+    message_ = "there are no levels of detail: bake them with lodbake";
+  else if (key == GLFW_KEY_A)
+    choice_.choose_by_distance();
+  else
+    choice_.step(key == GLFW_KEY_MINUS || key == GLFW_KEY_KP_SUBTRACT ? 1 : -1);
 }
 
 void Viewer::scroll(double steps) {
@@ -209,7 +229,7 @@ Result<void> Viewer::draw(Overlay& overlay, std::uint64_t frame, Statistics& sta
     playing_ = fit_wanted_ = false;
   }
   if (playing_) orbit_.look(camera(frame));  // a touch of the mouse goes on from here
-  const FramePlan plan = renderer_->plan(camera(frame), look_, width, height);
+  const FramePlan plan = renderer_->plan(camera(frame), look_, width, height, choice_);
   const auto decided = Clock::now();
   if (auto done = renderer_->draw(plan, 0); !done) return done;
   glFinish();
@@ -219,7 +239,8 @@ Result<void> Viewer::draw(Overlay& overlay, std::uint64_t frame, Statistics& sta
   screenshot_wanted_ = false;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, width, height);
-  overlay.draw({&scene_, &plan, renderer_name_.c_str(), seconds(start, finished), message_.c_str(), help_});
+  overlay.draw({&scene_, &plan, renderer_name_.c_str(), seconds(start, finished), message_.c_str(), help_,
+                choice_.is_by_distance()});
   glfwSwapBuffers(window_);
   return {};
 }
@@ -253,11 +274,11 @@ Result<void> Viewer::run(Statistics& statistics, Context& context) {
 }  // namespace
 
 Result<void> run_viewer(const Scene& scene, const CameraPath& path, const Options& options, const Plan& plan,
-                        Statistics& statistics, Context& context) {
+                        LevelChoice& choice, Statistics& statistics, Context& context) {
   auto window = Window::open(plan.width, plan.height, "treeplay: " + scene.name);
   if (!window) return std::unexpected(window.error());
   context.report().options.emplace_back("renderer", (*window)->renderer());
-  Viewer viewer(scene, path, options, plan, **window);
+  Viewer viewer(scene, path, options, plan, choice, **window);
   return viewer.run(statistics, context);
 }
 

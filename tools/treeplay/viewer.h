@@ -10,6 +10,6 @@ namespace copse::treeplay {
 
 // Until the window is closed, or for options.exit_after frames.
 Result<void> run_viewer(const Scene& scene, const CameraPath& path, const Options& options, const Plan& plan,
-                        Statistics& statistics, Context& context);
+                        LevelChoice& choice, Statistics& statistics, Context& context);
 
 }  // namespace copse::treeplay
