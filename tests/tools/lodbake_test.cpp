@@ -110,7 +110,7 @@ TEST_F(Lodbake, DiffTellsOtherLevelsApart) {
   ASSERT_EQ(bake({"--discrete", "0.4,0.1"}).status, 0);
   const Outcome diff = run_process({"treedump", before, out_, "--diff", "-q"});
   EXPECT_EQ(diff.status, 1);
-  EXPECT_TRUE(diff.out.starts_with("LSLD (levels of detail): ")) << diff.out;
+  EXPECT_NE(diff.out.find("LSLD (levels of detail): "), std::string::npos) << diff.out;
   EXPECT_NE(diff.out.find("bytes differ"), std::string::npos) << diff.out;
 }
 
