@@ -9,7 +9,10 @@ namespace {
 
 TEST(HullLoss, IsAtLeastTheDistanceAndNotMuchMore) {
   const ConvexHull hull = convex_hull(make_point_cloud(on_sphere(1, 300)).value());
-  EXPECT_LE(hull_loss(hull, hull.vertices), 1e-14);
+  EXPECT_LE(hull_loss(hull, hull.vertices).distance, 1e-14);
+  EXPECT_EQ(hull_loss(hull, hull.vertices).outside, hull.vertices);
+  const std::vector<Double3> middle{hull.box.centre()};
+  EXPECT_TRUE(hull_loss(hull, middle).outside.empty());
   const double unit = 1 / hull.frame.scale;
   for (const Double3& p : on_sphere(2, 200)) {
     const std::vector<Double3> out{hull.frame.in(p * 1.5)};
@@ -19,7 +22,7 @@ TEST(HullLoss, IsAtLeastTheDistanceAndNotMuchMore) {
       plane = std::max(plane,
                        dot(normalized(cross(hull.vertices[f[1]] - a, hull.vertices[f[2]] - a)), out[0] - a));
     }
-    const double loss = hull_loss(hull, out);
+    const double loss = hull_loss(hull, out).distance;
     EXPECT_GE(loss, plane * (1 - 1e-12));
     EXPECT_LE(loss, 0.75 * unit);
   }

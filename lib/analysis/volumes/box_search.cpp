@@ -11,7 +11,7 @@ namespace {
 
 constexpr int k_rotations = 256;                // of the fixed set of starts
 constexpr int k_facets = 12;                    // the largest, each a start
-constexpr std::size_t k_kept = 12;              // starts that are descended from
+constexpr std::size_t k_kept = 24;              // starts that are descended from
 constexpr std::size_t k_ends = 3;               // of them are descended to the end
 constexpr double k_apart = 0.05;                // rad; starts nearer to each other than this are one
 constexpr double k_gain = 1e-12;                // relative; less is rounding

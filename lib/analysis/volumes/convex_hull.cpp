@@ -147,6 +147,39 @@ void hull_of_space(Points points, ConvexHull& hull) {
   measure(hull);
 }
 
+void rebuild(const std::vector<Double3>& points, ConvexHull& hull) {
+  hull.vertices.clear(), hull.faces.clear(), hull.edges.clear();
+  hull.volume = hull.area = 0;
+  hull_of_space(points, hull);
+}
+
+std::vector<Double3> joined(std::vector<Double3> a, const std::vector<Double3>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return distinct_points(a);
+}
+
+// What a kernel has left outside joins it: all of it where that is not too much, else what is farthest out of
+// each face, a few times. What is outside then is told.
+void settle_kernel(std::vector<Double3> points, std::size_t most, ConvexHull& hull) {
+  constexpr int k_rounds = 6;
+  for (int round = 1;; ++round) {
+    const HullLoss loss = hull_loss(hull, points);
+    points = joined(loss.outside, hull.vertices);
+    if (points.size() <= most) {
+      rebuild(points, hull);
+      hull.boundary = hull.vertices;
+      return;
+    }
+    const std::vector<Double3> wider = joined(loss.farthest, hull.vertices);
+    if (wider.size() > most || wider.size() == hull.vertices.size() || round == k_rounds) {
+      hull.boundary = std::move(points);
+      hull.loss = loss.distance;
+      return;
+    }
+    rebuild(wider, hull);
+  }
+}
+
 // The first of the caller's points at each vertex. Most points are sorted out by one bit of a table.
 void find_indices(Points all, ConvexHull& hull) {
   constexpr auto k_none = static_cast<std::uint32_t>(-1);
@@ -182,9 +215,9 @@ ConvexHull convex_hull(const PointCloud& cloud, const HullOptions& options) {
   if (hull.dimension == 1) hull_of_line(candidates.all, hull);
   if (hull.dimension == 2) hull_of_plane(candidates.all, hull);
   if (hull.dimension == 3) hull_of_space(candidates.chosen, hull);
-  const bool kernel = hull.dimension == 3 && candidates.chosen.size() < candidates.all.size();
-  if (kernel) hull.loss = hull_loss(hull, candidates.all);
-  hull.boundary = kernel ? std::move(candidates.all) : hull.vertices;
+  hull.boundary = hull.vertices;
+  if (hull.dimension == 3 && candidates.chosen.size() < candidates.all.size())
+    settle_kernel(std::move(candidates.all), options.max_candidates, hull);
   find_indices(cloud.points, hull);
   return hull;
 }

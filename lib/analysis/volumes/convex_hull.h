@@ -3,9 +3,9 @@
 //
 // Interior points are dropped by a test of constant cost before the exact hull is built (CGAL, exact
 // predicates). Where more points than `max_candidates` survive (a sphere of points: all are corners), the
-// hull is that of a kernel: a subset chosen direction by direction, whose hull every point is within `loss`
-// of. Volumes are then searched on `vertices` and grown over `boundary`, and lower bounds found on `vertices`
-// hold for all points, because they are some of them.
+// hull is that of a kernel: a subset chosen direction by direction. If few points are outside that, they join
+// it; else every point is within `loss` of it. Volumes are then searched on `vertices` and grown over
+// `boundary`, and lower bounds found on `vertices` hold for all points, because they are some of them.
 #pragma once
 
 #include "lib/analysis/volumes/point_cloud.h"
@@ -38,7 +38,7 @@ struct ConvexHull {
   std::vector<HullEdge> edges;                      // dimensions 2 and 3, sorted by (a, b)
   double volume = 0, area = 0;                      // dimension 3; 0 otherwise
 
-  // Points whose hull holds every point of the cloud: `vertices`, or with a kernel all that survived.
+  // Points whose hull holds every point of the cloud: `vertices`, or with a kernel all that are outside it.
   std::vector<Double3> boundary;
   double loss = 0;  // how far a point can be outside the hull of `vertices`; 0: nothing was given away
 

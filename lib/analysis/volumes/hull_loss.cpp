@@ -7,6 +7,7 @@ namespace copse {
 namespace {
 
 constexpr std::uint32_t k_none = static_cast<std::uint32_t>(-1);
+constexpr double k_rounding = 1e-9;  // of the gauge
 
 std::vector<std::array<std::uint32_t, 3>> neighbours_of(const ConvexHull& hull) {
   std::vector<std::array<std::uint32_t, 3>> neighbours(hull.faces.size(), {k_none, k_none, k_none});
@@ -19,7 +20,7 @@ std::vector<std::array<std::uint32_t, 3>> neighbours_of(const ConvexHull& hull) 
 
 }  // namespace
 
-double hull_loss(const ConvexHull& hull, std::span<const Double3> points) {
+HullLoss hull_loss(const ConvexHull& hull, std::span<const Double3> points) {
   Double3 middle;
   for (const Double3& v : hull.vertices) middle += v;
   middle = middle / static_cast<double>(hull.vertices.size());
@@ -29,7 +30,9 @@ double hull_loss(const ConvexHull& hull, std::span<const Double3> points) {
     facets.push_back(normal / std::max(dot(normal, a - middle), 1e-300));
   }
   const auto neighbours = neighbours_of(hull);
-  double loss = 0;
+  HullLoss loss;
+  std::vector<double> most(facets.size(), 1);
+  std::vector<Double3> farthest(facets.size());
   std::uint32_t at = 0;
   for (const Double3& p : points) {
     const Double3 d = p - middle;
@@ -43,7 +46,13 @@ double hull_loss(const ConvexHull& hull, std::span<const Double3> points) {
       at = next;
     }
     // p / gauge is in the hull.
-    if (gauge > 1) loss = std::max(loss, (1 - 1 / gauge) * length(d));
+    if (gauge > 1) loss.distance = std::max(loss.distance, (1 - 1 / gauge) * length(d));
+    if (gauge <= 1 - k_rounding) continue;
+    loss.outside.push_back(p);
+    if (gauge > most[at]) most[at] = gauge, farthest[at] = p;
+  }
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    if (most[f] > 1) loss.farthest.push_back(farthest[f]);
   }
   return loss;
 }

@@ -30,7 +30,10 @@ BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const SweptB
   take(projected_circle_capsule(points));
   SweptFit fit = search_around(Swept::capsule, points);
   if (options.gap < std::numeric_limits<double>::infinity()) {
-    best.lower_bound = bound_swept(Swept::capsule, points, options, fit).lower_bound;
+    SweptBoundOptions how = options;
+    how.gap =
+        reachable_gap(options.gap, interior_volume(enclosing(capsule_of(fit), hull.boundary)) / fit.volume());
+    best.lower_bound = bound_swept(Swept::capsule, points, how, fit).lower_bound;
   }
   take(capsule_of(fit));
   return best;

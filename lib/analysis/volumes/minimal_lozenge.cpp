@@ -38,7 +38,10 @@ BoundedFit<Lozenge<double>> minimal_lozenge(const ConvexHull& hull, const Capsul
   };
   SweptFit fit = search_around(Swept::lozenge, points);
   if (options.gap < std::numeric_limits<double>::infinity()) {
-    best.lower_bound = bound_swept(Swept::lozenge, points, options, fit).lower_bound;
+    const Lozenge<double> whole = enclosing(placed(fit.rectangle, fit.frame), hull.boundary);
+    SweptBoundOptions how = options;
+    how.gap = reachable_gap(options.gap, interior_volume(whole) / fit.volume());
+    best.lower_bound = bound_swept(Swept::lozenge, points, how, fit).lower_bound;
   }
   take(placed(fit.rectangle, fit.frame));
   take(swept_segment);

@@ -86,10 +86,6 @@ Farthest farthest_from(const Double3& centre, std::span<const Double3> points, c
   found.distance = std::sqrt(std::max(0.0, found.distance));
   return found;
 }
-void grow(DoubleBox& box, const Double3& p) {
-  box.grow(p);
-}
-
 // --- balls -----------------------------------------------------------------------------------------------
 
 Sphere as_ball(const Sphere& b, const Frame& frame) {
@@ -109,10 +105,7 @@ void grow(DoubleBox& box, const Sphere& b) {
   box.grow(b.centre - r), box.grow(b.centre + r);
 }
 
-template <class Member>
-Frame frame_of(std::span<const Member> members) {
-  DoubleBox box;
-  for (const Member& m : members) grow(box, m);
+Frame frame_of(const DoubleBox& box) {
   // Halves first: the box of points near the largest double must not overflow.
   const Double3 half = box.max * 0.5 - box.min * 0.5;
   const double reach = std::max({half.x, half.y, half.z});
@@ -123,7 +116,9 @@ Frame frame_of(std::span<const Member> members) {
 
 Sphere minimal_sphere_of(std::span<const Sphere> members) {
   if (members.empty()) return {};
-  const Frame frame = frame_of(members);
+  DoubleBox box;
+  for (const Sphere& m : members) grow(box, m);
+  const Frame frame = frame_of(box);
   SupportBall ball;
   ball.include(as_ball(members[farthest_from({}, members, frame).member], frame));
   PivotLoop loop;
@@ -139,6 +134,10 @@ Sphere minimal_sphere_of(std::span<const Sphere> members) {
   return sphere;
 }
 
+bool less(const Double3& a, const Double3& b) {
+  return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
 // The loop over points. With c and r the support's ball and R the farthest point's distance from c, the
 // minimal ball's centre is within sqrt(R^2 - r^2) of c, so points nearer than r less that are inside it and
 // are left out of all later passes.
@@ -148,7 +147,7 @@ class PointLoop {
   PointLoop(std::span<const Double3> points, const InFrame& frame) : points_(points), frame_(frame) {}
 
   Sphere run() {
-    double farthest = pass({}, -1);
+    double farthest = pass({});
     ball.include({at_, 0});
     Double3 centre;
     for (;;) {
@@ -156,7 +155,9 @@ class PointLoop {
       const double reach = farthest + distance(centre, ball.centre());
       const double shift = std::sqrt(std::max(0.0, reach * reach - ball.radius() * ball.radius()));
       centre = ball.centre();
-      farthest = pass(centre, ball.radius() - shift * (1 + 1e-9) - 1e-9 * reach);
+      const double inside = ball.radius() - shift * (1 + 1e-9) - 1e-9 * reach;
+      const bool narrows = inside > k_worth * ball.radius() && count() > 64;
+      farthest = narrows ? pass_and_narrow(centre, inside) : pass(centre);
       if (!loop_.should_include(ball, farthest)) break;
       ball.include({at_, 0});
     }
@@ -166,31 +167,52 @@ class PointLoop {
   SupportBall ball;
 
  private:
-  // The distance of the farthest point, which becomes at_; of equals the first in lexicographic order, so
-  // that nothing depends on the order of the points. Keeps what is farther than `inside` for the next pass.
-  double pass(const Double3& centre, double inside) {
-    const std::size_t limit = count() / 4;
-    const bool collect = inside > 0 && count() > 64;
-    const double threshold = inside * inside;
-    double most = -1;
-    found_.clear();
-    const auto visit = [&](const Double3& q) {
-      const double d = squared(q - centre);
-      if (d >= most && (d > most || less(q, at_))) most = d, at_ = q;
-      if (collect && d > threshold && found_.size() <= limit) found_.push_back(q);
-    };
+  // Nearer to the surface than this, few points are left, and it pays to keep them apart.
+  static constexpr double k_worth = 0.75;
+
+  template <class Visit>
+  void visit_all(Visit&& visit) const {
     if (narrowed_) {
       for (const Double3& q : kept_) visit(q);
     } else {
       for (const Double3& p : points_) visit(frame_.in(p));
     }
-    if (collect && found_.size() <= limit) kept_.swap(found_), narrowed_ = true;
+  }
+
+  // The distance of the farthest point, which becomes at_; of equals the first in lexicographic order, so
+  // that nothing depends on the order of the points.
+  double pass(const Double3& centre) {
+    double most = -1;
+    Double3 at;
+    visit_all([&](const Double3& q) {
+      const double d = squared(q - centre);
+      if (d >= most && (d > most || less(q, at))) most = d, at = q;
+    });
+    at_ = at;
     return std::sqrt(std::max(0.0, most));
   }
-  std::size_t count() const { return narrowed_ ? kept_.size() : points_.size(); }
-  static bool less(const Double3& a, const Double3& b) {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+
+  // And keeps what is farther than `inside` for the passes to come, if that is not too much.
+  double pass_and_narrow(const Double3& centre, double inside) {
+    const std::size_t limit = count() / 4;
+    const double threshold = inside * inside;
+    found_.clear();
+    found_.reserve(limit + 1);
+    double most = -1;
+    Double3 at;
+    visit_all([&](const Double3& q) {
+      const double d = squared(q - centre);
+      if (!(d > threshold)) return;
+      if (d >= most && (d > most || less(q, at))) most = d, at = q;
+      if (found_.size() <= limit) found_.push_back(q);
+    });
+    if (most < 0) return pass(centre);
+    at_ = at;
+    if (found_.size() <= limit) kept_.swap(found_), narrowed_ = true;
+    return std::sqrt(most);
   }
+
+  std::size_t count() const { return narrowed_ ? kept_.size() : points_.size(); }
 
   std::span<const Double3> points_;
   InFrame frame_;
@@ -204,33 +226,41 @@ struct NoFrame {
   Double3 in(const Double3& p) const { return p; }
 };
 
-double reach_from(const Double3& centre, std::span<const Double3> points, const Frame&, const Frame& frame) {
-  return farthest_from({}, points, {centre, frame.scale}).distance / frame.scale;
+// As seen from the centre as it is rounded when it leaves the frame, not as it was found.
+Sphere placed(const Sphere& ball, std::span<const Double3> points, const Frame& frame) {
+  const Double3 centre = frame.out(ball.centre);
+  return {centre, farthest_from({}, points, {centre, frame.scale}).distance / frame.scale};
 }
-double reach_from(const Double3& centre, std::span<const Double3> points, const NoFrame&, const Frame&) {
-  double most = 0;
-  for (const Double3& p : points) most = std::max(most, squared(p - centre));
-  return std::sqrt(most);
+Sphere placed(const Sphere& ball, std::span<const Double3>, const NoFrame&) {
+  return ball;
+}
+
+// The first of the points at each place of the support.
+template <class InFrame>
+std::vector<std::uint32_t> indices_of(std::span<const Sphere> support, std::span<const Double3> points,
+                                      const InFrame& in) {
+  std::array<double, 4> x;
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = support[std::min(k, support.size() - 1)].centre.x;
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < points.size() && found.size() < support.size(); ++i) {
+    const Double3 q = in.in(points[i]);
+    if (q.x != x[0] && q.x != x[1] && q.x != x[2] && q.x != x[3]) continue;
+    const bool holds =
+        std::any_of(support.begin(), support.end(), [&](const Sphere& s) { return s.centre == q; });
+    const bool met =
+        std::any_of(found.begin(), found.end(), [&](std::uint32_t k) { return in.in(points[k]) == q; });
+    if (holds && !met) found.push_back(i);
+  }
+  return found;
 }
 
 template <class InFrame>
-MinimalSphere minimal_in(std::span<const Double3> points, const InFrame& in, const Frame& frame) {
+MinimalSphere minimal_in(std::span<const Double3> points, const InFrame& in, double scale) {
   PointLoop<InFrame> loop(points, in);
   MinimalSphere found;
-  found.sphere.centre = frame.out(loop.run().centre);
-  found.lower_radius = loop.ball.radius() / frame.scale;
-  // From the centre as it was rounded, not as it was found.
-  found.sphere.radius = reach_from(found.sphere.centre, points, in, frame);
-  const auto support = loop.ball.support();
-  for (std::uint32_t i = 0; i < points.size() && found.support.size() < support.size(); ++i) {
-    const Double3 q = in.in(points[i]);
-    for (const Sphere& s : support) {
-      if (s.centre != q) continue;
-      const bool met = std::any_of(found.support.begin(), found.support.end(),
-                                   [&](std::uint32_t k) { return in.in(points[k]) == q; });
-      if (!met) found.support.push_back(i);
-    }
-  }
+  found.sphere = placed(loop.run(), points, in);
+  found.lower_radius = loop.ball.radius() / scale;
+  found.support = indices_of(loop.ball.support(), points, in);
   return found;
 }
 
@@ -283,9 +313,11 @@ bool PivotLoop::should_include(const SupportBall& ball, double farthest) {
 
 MinimalSphere minimal_sphere_and_support(std::span<const Double3> points) {
   if (points.empty()) return {};
-  const Frame frame = frame_of(points);
-  if (needs_no_frame(frame)) return minimal_in(points, NoFrame{}, Frame{});
-  return minimal_in(points, frame, frame);
+  DoubleBox box;
+  for (const Double3& p : points) box.grow(p);
+  const Frame frame = frame_of(box);
+  if (needs_no_frame(frame)) return minimal_in(points, NoFrame{}, 1);
+  return minimal_in(points, frame, frame.scale);
 }
 
 Sphere minimal_sphere(std::span<const Double3> points) {

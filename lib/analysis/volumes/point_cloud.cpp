@@ -49,8 +49,9 @@ Result<PointCloud> make_point_cloud(std::span<const Double3> points) {
   for (const Double3& p : points) cloud.box.grow(p);
   cloud.frame = frame_of(cloud.box);
   cloud.box = {cloud.frame.in(cloud.box.min), cloud.frame.in(cloud.box.max)};
-  cloud.points.reserve(points.size());
-  for (const Double3& p : points) cloud.points.push_back(cloud.frame.in(p));
+  cloud.points.resize(points.size());
+  std::transform(points.begin(), points.end(), cloud.points.begin(),
+                 [frame = cloud.frame](const Double3& p) { return frame.in(p); });
   return cloud;
 }
 

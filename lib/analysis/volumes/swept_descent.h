@@ -12,7 +12,7 @@ namespace copse {
 
 struct DescentOptions {
   double gap = 1e-8;  // of the log of the volume, to the local optimum
-  int rounds = 12;    // of adding points
+  int rounds = 60;    // of adding points, at most: rings that touch all along need some thirty
 };
 
 // The rectangle about the points in `frame` with the least h-range: what to start from. Encloses strictly.
