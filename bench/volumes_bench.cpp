@@ -1,14 +1,19 @@
-// bench_volumes: bounding volumes of CGAL's data meshes beside CGAL's own box, sphere and principal axes, in
-// one process: volumes as ratios to the smallest known (volumes_best.txt), times as CPU time of the thread.
+// bench_volumes: bounding volumes beside those of CGAL and FCL, in one process, on every model that is to be
+// had (volumes_models.h): volumes as ratios to the smallest known, CPU times of the one thread, peers in turn
+// with ours. What it prints is docs/results/volumes.md.
+#include "bench/volumes_models.h"
+#include "bench/volumes_peers.h"
 #include "lib/analysis/volumes/bounding_spheres.h"
-#include "lib/analysis/volumes/box_search.h"
+#include "lib/analysis/volumes/capsule.h"
+#include "lib/analysis/volumes/certify.h"
 #include "lib/analysis/volumes/cylinders.h"
 #include "lib/analysis/volumes/ellipsoids.h"
+#include "lib/analysis/volumes/fit_volumes.h"
+#include "lib/analysis/volumes/lozenge.h"
 #include "lib/analysis/volumes/minimal_box.h"
 #include "lib/analysis/volumes/minimal_capsule.h"
 #include "lib/analysis/volumes/minimal_lozenge.h"
 #include "lib/analysis/volumes/oriented_boxes.h"
-#include "lib/analysis/volumes/volume_measures.h"
 #include "lib/formats/import/import.h"
 #include "lib/formats/random.h"
 
@@ -16,198 +21,305 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
+#include <functional>
 #include <map>
-#include <sstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Min_sphere_of_points_d_traits_3.h>
-#include <CGAL/Min_sphere_of_spheres_d.h>
-#include <CGAL/linear_least_squares_fitting_3.h>
-#include <CGAL/optimal_bounding_box.h>
 #include <fmt/format.h>
 
 namespace copse {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalPoints = std::vector<Kernel::Point_3>;
-
-constexpr const char* k_archive = "/usr/share/doc/libcgal-dev/data.tar.gz";
-constexpr int k_repeats = 3;  // the quickest counts
-
-double cpu_seconds() {
+double cpu_ms() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-// What `work` returns, and its milliseconds.
-template <class Work>
-auto timed(Work&& work, double& ms, int repeats = k_repeats) {
-  double best = 1e300;
-  for (int i = 1;; ++i) {
-    const double start = cpu_seconds();
-    auto result = work();
-    best = std::min(best, 1e3 * (cpu_seconds() - start));
-    if (i < repeats) continue;
-    ms = best;
-    return result;
-  }
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0 : values[values.size() / 2];
 }
 
-struct Model {
-  std::string file;
-  std::size_t points = 0;
-  double box = 0, sphere = 0, capsule = 0, lozenge = 0;
+// A way to a volume: what it fits is compared with the best of its kind, or with its own proven bound.
+struct Fitted {
+  double volume = 0, bound = 0;
+};
+struct Way {
+  std::string name;
+  std::string kind;  // whose best it is compared with; empty: its bound
+  std::string peer;  // the way whose time it is compared with, or none
+  std::function<Fitted()> fit;
 };
 
-std::vector<Model> models() {
-  std::ifstream list(COPSE_SOURCE_DIR "/bench/volumes_best.txt");
-  std::vector<Model> found;
-  for (std::string line; std::getline(list, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream row(line);
-    Model m;
-    row >> m.file >> m.points >> m.box >> m.sphere >> m.capsule >> m.lozenge;
-    found.push_back(m);
-  }
-  return found;
-}
-
-// A column of the table: ratio to the best known (or a gap), and time, of every model.
-struct Column {
-  std::vector<double> ratios, times;
-  void add(double ratio, double ms) { ratios.push_back(ratio), times.push_back(ms); }
+struct Measured {
+  std::string model;
+  double volume = 0, bound = 0, ms = 0;
 };
 
-class Table {
+// All that was measured, by way.
+class Results {
  public:
-  void add(const std::string& name, double ratio, double ms) {
-    if (!columns_.contains(name)) order_.push_back(name);
-    columns_[name].add(ratio, ms);
+  // The ways in turn, `repeats` times; the medians count.
+  void run(const std::string& model, const std::vector<Way>& ways, int repeats) {
+    std::vector<std::vector<double>> times(ways.size());
+    std::vector<Fitted> fitted(ways.size());
+    for (int r = 0; r < repeats; ++r) {
+      for (std::size_t w = 0; w < ways.size(); ++w) {
+        const double start = cpu_ms();
+        fitted[w] = ways[w].fit();
+        times[w].push_back(cpu_ms() - start);
+      }
+    }
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+      if (!of_.contains(ways[w].name)) order_.push_back(ways[w]), order_.back().fit = {};
+      of_[ways[w].name].push_back({model, fitted[w].volume, fitted[w].bound, median(times[w])});
+      if (!ways[w].kind.empty()) know(model, ways[w].kind, fitted[w].volume);
+    }
   }
+  void know(const std::string& model, const std::string& kind, double volume) {
+    if (!(volume > 0)) return;
+    double& best = best_.try_emplace({model, kind}, volume).first->second;
+    best = std::min(best, volume);
+  }
+  double best(const std::string& model, const std::string& kind) const {
+    const auto at = best_.find({model, kind});
+    return at == best_.end() ? 0 : at->second;
+  }
+
   void print() const {
     fmt::print(
-        "\n| volume, method | volume / best known, geometric mean | worst | ms, median | ms, most |\n");
-    fmt::print("|---|---|---|---|---|\n");
-    for (const std::string& name : order_) {
-      Column c = columns_.at(name);
-      double logs = 0;
-      for (const double r : c.ratios) logs += std::log(r);
-      std::sort(c.times.begin(), c.times.end());
-      fmt::print(
-          "| {} | {:.6f} | {:.6f} | {:.3f} | {:.2f} |\n", name, std::exp(logs / double(c.ratios.size())),
-          *std::max_element(c.ratios.begin(), c.ratios.end()), c.times[c.times.size() / 2], c.times.back());
+        "| volume, method | models | volume / best, geometric mean | worst | ms, median | most | time / "
+        "peer's, median |\n");
+    fmt::print("|---|---:|---:|---|---:|---:|---:|\n");
+    for (const Way& way : order_) print(way);
+  }
+  double ratio(const Way& way, const Measured& m) const {
+    const double by = way.kind.empty() ? m.bound : best(m.model, way.kind);
+    return by > 0 && m.volume > 0 ? m.volume / by : 0;
+  }
+  const std::vector<Way>& order() const { return order_; }
+  const Measured* of(const std::string& way, const std::string& model) const {
+    const auto at = of_.find(way);
+    if (at == of_.end()) return nullptr;
+    for (const Measured& m : at->second) {
+      if (m.model == model) return &m;
     }
+    return nullptr;
   }
 
  private:
-  std::map<std::string, Column> columns_;
-  std::vector<std::string> order_;
+  void print(const Way& way) const {
+    double logs = 0, worst = 0, most = 0;
+    std::string worst_model;
+    std::size_t counted = 0;
+    std::vector<double> times, ratios;
+    for (const Measured& m : of_.at(way.name)) {
+      times.push_back(m.ms), most = std::max(most, m.ms);
+      if (const Measured* peer = of(way.peer, m.model); peer != nullptr) ratios.push_back(m.ms / peer->ms);
+      const double r = ratio(way, m);
+      if (r == 0) continue;
+      ++counted, logs += std::log(r);
+      if (r > worst) worst = r, worst_model = m.model;
+    }
+    const std::string quality = counted == 0
+                                    ? "| |"
+                                    : fmt::format("{:.6f} | {:.6f} {}", std::exp(logs / double(counted)),
+                                                  worst, worst > 1.0000005 ? worst_model : "");
+    fmt::print("| {} | {} | {} | {:.3f} | {:.1f} | {} |\n", way.name, times.size(), quality, median(times),
+               most, ratios.empty() ? "" : fmt::format("{:.2f}", median(ratios)));
+  }
+
+  std::vector<Way> order_;
+  std::map<std::string, std::vector<Measured>> of_;
+  std::map<std::pair<std::string, std::string>, double> best_;
 };
 
-double cgal_box(const CgalPoints& points) {
-  std::array<Kernel::Point_3, 8> c;
-  CGAL::oriented_bounding_box(points, c);
-  const auto l = [&](int i) { return std::sqrt(CGAL::to_double(CGAL::squared_distance(c[0], c[i]))); };
-  return l(1) * l(3) * l(5);
+// Volumes that leave points outside, as certify finds them on the very numbers.
+struct Judged {
+  std::size_t volumes = 0, leaky = 0, points = 0;
+  double worst = 0;  // how far out, of the size
+  void add(const Volume<double>& v, std::span<const Double3> p, double size) {
+    const Certificate c = certify(v, p);
+    ++volumes, points += c.outside;
+    if (!c.holds()) ++leaky, worst = std::max(worst, c.excess / size);
+  }
+  void print(const char* who) const {
+    fmt::print("| {} | {} | {} | {} | {} |\n", who, volumes, leaky, points,
+               leaky ? fmt::format("{:.1e}", worst) : "0");
+  }
+};
+
+struct Bench {
+  Results results;
+  Judged ours, cgal_spheres, fcl_boxes, fcl_lozenges;
+  std::map<std::string, std::array<std::size_t, 2>> sizes;  // points, corners of the hull
+};
+
+double volume_of(const Volume<double>& v, const PointFrame& frame = {}) {
+  return frame.volume_out(measures_of(v).volume);
+}
+template <class V>
+Fitted out(const V& fit, const PointFrame& frame) {
+  return {volume_of(fit.volume, frame), frame.volume_out(fit.lower_bound)};
 }
 
-double cgal_sphere(const CgalPoints& points) {
-  using Traits = CGAL::Min_sphere_of_points_d_traits_3<Kernel, double>;
-  CGAL::Min_sphere_of_spheres_d<Traits> ball(points.begin(), points.end());
-  const double r = ball.radius();
-  return 4 * std::numbers::pi / 3 * r * r * r;
+std::vector<Way> quick_ways(const std::vector<Double3>& points, const PointCloud& cloud, const CgalPeer& cgal,
+                            const FclPeer& fcl) {
+  const PointFrame& frame = cloud.frame;
+  const auto plain = [&](const Volume<double>& v) { return Fitted{volume_of(v, frame), 0}; };
+  std::vector<Way> ways{
+      {"preparation (checked, framed, copied)", "", "",
+       [&] {
+         return Fitted{make_point_cloud(points).value().frame.scale, 0};
+       }},
+      {"sphere, minimal, with preparation", "sphere", "sphere, CGAL Min_sphere_of_spheres_d (double)",
+       [&] {
+         const PointCloud own = make_point_cloud(points).value();
+         return Fitted{volume_of(smallest_sphere(own).fit.volume, own.frame), 0};
+       }},
+      {"sphere, CGAL Min_sphere_of_spheres_d (double)", "sphere", "",
+       [&] {
+         return Fitted{volume_of(cgal.sphere()), 0};
+       }},
+      {"sphere, Ritter", "sphere", "", [&, plain] { return plain(extremal_sphere(cloud)); }},
+      {"box, Gaussian", "box", "box, CGAL principal axes", [&, plain] { return plain(gaussian_box(cloud)); }},
+      {"box, CGAL principal axes", "box", "",
+       [&] {
+         return Fitted{volume_of(cgal.principal_box()), 0};
+       }},
+      {"capsule, least squares (as Geometric Tools)", "capsule", "",
+       [&, plain] { return plain(least_squares_capsule(cloud.points)); }},
+      {"lozenge, Gaussian", "lozenge", FclPeer::available ? "lozenge, FCL RSS" : "",
+       [&, plain] { return plain(gaussian_lozenge(cloud.points)); }}};
+  if (FclPeer::available) {
+    ways.push_back({"box, FCL OBB", "box", "", [&] { return Fitted{volume_of(fcl.box()), 0}; }});
+    ways.push_back({"lozenge, FCL RSS", "lozenge", "", [&] { return Fitted{volume_of(fcl.lozenge()), 0}; }});
+  }
+  return ways;
 }
 
-double cgal_principal_box(const CgalPoints& points, const PointCloud& cloud) {
-  Kernel::Line_3 line;
-  Kernel::Plane_3 plane;
-  CGAL::linear_least_squares_fitting_3(points.begin(), points.end(), line, CGAL::Dimension_tag<0>());
-  CGAL::linear_least_squares_fitting_3(points.begin(), points.end(), plane, CGAL::Dimension_tag<0>());
-  const auto u = line.to_vector();
-  const auto n = plane.orthogonal_vector();
-  const Double3 along{u.x(), u.y(), u.z()}, across{n.x(), n.y(), n.z()};
-  const OrientedBox<double> box = box_in_axes(cloud.points, axes_along(along, cross(across, along)));
-  return cloud.frame.volume_out(measures_of(box).volume);
+std::vector<Way> search_ways(const std::vector<Double3>& points, const CgalPeer& cgal) {
+  return {{"hull, with preparation", "", "",
+           [&] {
+             return Fitted{convex_hull(make_point_cloud(points).value()).volume, 0};
+           }},
+          {"box, minimal, with hull", "box", "box, CGAL oriented_bounding_box",
+           [&] {
+             const ConvexHull hull = convex_hull(make_point_cloud(points).value());
+             return Fitted{volume_of(minimal_box(hull).volume, hull.frame), 0};
+           }},
+          {"box, CGAL oriented_bounding_box", "box", "", [&] {
+             return Fitted{cgal.box_volume(), 0};
+           }}};
 }
 
-CgalPoints for_cgal(const std::vector<Double3>& points) {
-  CgalPoints copies;
-  for (const Double3& p : points) copies.emplace_back(p.x, p.y, p.z);
-  return copies;
+std::vector<Way> hull_ways(const ConvexHull& hull, const Capsule<double>& capsule) {
+  return {{"capsule, projected circle, after the hull", "capsule", "",
+           [&] {
+             return Fitted{volume_of(projected_circle_capsule(hull.vertices), hull.frame), 0};
+           }},
+          {"capsule, minimal, after the hull", "capsule", "",
+           [&] { return out(minimal_capsule(hull), hull.frame); }},
+          {"lozenge, minimal, after hull and capsule", "lozenge", "",
+           [&] { return out(minimal_lozenge(hull, capsule), hull.frame); }}};
 }
 
-void run_model(const Model& model, const std::vector<Double3>& points, Table& table) {
+// Proofs: compared with their own bound.
+std::vector<Way> proven_ways(const ConvexHull& hull, const Capsule<double>& capsule) {
+  const auto box = [&](double gap) { return out(minimal_box(hull, {.gap = gap}), hull.frame); };
+  const auto swept = [](double gap) {
+    SweptBoundOptions o;
+    o.gap = gap;
+    return o;
+  };
+  return {{"box, proven to 1 %", "", "", [&, box] { return box(0.01); }},
+          {"box, proven to 0.01 %", "", "", [&, box] { return box(1e-4); }},
+          {"capsule, proven to 2 %", "", "",
+           [&, swept] { return out(minimal_capsule(hull, swept(0.02)), hull.frame); }},
+          {"lozenge, proven to 10 %", "", "",
+           [&, swept] { return out(minimal_lozenge(hull, capsule, swept(0.1)), hull.frame); }},
+          {"lozenge, proven to 2 %", "", "",
+           [&, swept] { return out(minimal_lozenge(hull, capsule, swept(0.02)), hull.frame); }},
+          {"cylinder, minimal", "", "", [&] { return out(minimal_cylinder(hull), hull.frame); }},
+          {"ellipsoid, minimal", "", "", [&] { return out(minimal_ellipsoid(hull), hull.frame); }}};
+}
+
+void judge(const std::vector<Double3>& points, const CgalPeer& cgal, const FclPeer& fcl, double size,
+           Bench& bench) {
+  const auto fitter = VolumeFitter::make(points);
+  if (!fitter) return;
+  for (const FitMethod& method : fit_methods()) {
+    if (const auto v = fitter->fit(method)) bench.ours.add(to_double(v->volume), points, size);
+  }
+  bench.cgal_spheres.add(cgal.sphere(), points, size);
+  if (!FclPeer::available) return;
+  bench.fcl_boxes.add(fcl.box(), points, size);
+  bench.fcl_lozenges.add(fcl.lozenge(), points, size);
+}
+
+// Refused models are told and left out.
+bool run_model(const BenchModel& model, Bench& bench) {
+  const auto mesh = import_mesh(model.file);
+  if (!mesh) {
+    fmt::print("- {}: {}\n", model.name, mesh.error().what);
+    return false;
+  }
+  const std::vector<Double3>& points = mesh->mesh.positions;
   const PointCloud cloud = make_point_cloud(points).value();
-  const CgalPoints copies = for_cgal(points);
-  double ms = 0, hull_ms = 0;
-  const ConvexHull hull = timed([&] { return convex_hull(make_point_cloud(points).value()); }, hull_ms);
-  const auto ratio = [&](const auto& v, double best) {
-    return hull.frame.volume_out(measures_of(v).volume) / best;
-  };
-  std::string line = fmt::format("{:<36}{:>8}{:>6}", model.file, points.size(), hull.vertices.size());
-  const auto add = [&](const std::string& name, double r, double t) {
-    table.add(name, r, t);
-    line += fmt::format("  {:.5f} {:7.2f}", r, t);
-  };
-  const auto sphere = timed([&] { return smallest_sphere(make_point_cloud(points).value()); }, ms);
-  add("sphere, minimal, preparation included", ratio(sphere.fit.volume, model.sphere), ms);
-  const double cs = timed([&] { return cgal_sphere(copies); }, ms);
-  add("sphere, CGAL Min_sphere_of_spheres_d, double", cs / model.sphere, ms);
-  const auto quick = timed([&] { return gaussian_box(cloud); }, ms);
-  add("box, gaussian", ratio(quick, model.box), ms);
-  const double pca = timed([&] { return cgal_principal_box(copies, cloud); }, ms);
-  add("box, CGAL principal axes", pca / model.box, ms);
-  const auto box = timed([&] { return minimal_box(hull); }, ms);
-  add("box, minimal, hull included", ratio(box.volume, model.box), ms + hull_ms);
-  const double cb = timed([&] { return cgal_box(copies); }, ms);
-  add("box, CGAL oriented_bounding_box", cb / model.box, ms);
-  MinimalBoxOptions exact;
-  exact.gap = 0.01;
-  const auto proven = timed([&] { return minimal_box(hull, exact); }, ms, 1);
-  table.add("box, proven to 1 %: volume / bound", measures_of(proven.volume).volume / proven.lower_bound, ms);
-  exact.gap = 1e-4;
-  const auto tight = timed([&] { return minimal_box(hull, exact); }, ms, 1);
-  table.add("box, proven to 0.01 %: volume / bound", measures_of(tight.volume).volume / tight.lower_bound,
-            ms);
-  table.add("box, proven to 0.01 %", ratio(tight.volume, model.box), ms);
-  const auto capsule = timed([&] { return minimal_capsule(hull); }, ms, 1);
-  add("capsule, minimal, after the hull", ratio(capsule.volume, model.capsule), ms);
-  const auto lozenge = timed([&] { return minimal_lozenge(hull, capsule.volume); }, ms, 1);
-  add("lozenge, minimal, after hull and capsule", ratio(lozenge.volume, model.lozenge), ms);
-  const auto cylinder = timed([&] { return minimal_cylinder(hull); }, ms, 1);
-  table.add("cylinder, minimal: volume / bound", measures_of(cylinder.volume).volume / cylinder.lower_bound,
-            ms);
-  const auto ellipsoid = timed([&] { return minimal_ellipsoid(hull); }, ms, 1);
-  table.add("ellipsoid, minimal: volume / bound",
-            measures_of(ellipsoid.volume).volume / ellipsoid.lower_bound, ms);
-  table.add("hull, preparation included (points per corner)",
-            double(points.size()) / double(hull.vertices.size()), hull_ms);
-  fmt::print("{}\n", line);
+  const ConvexHull hull = convex_hull(cloud);
+  const double size = length(cloud.box.extent()) * cloud.frame.scale;
+  if (hull.dimension < 3) {
+    fmt::print("- {}: flat, left out of the tables (every volume of it is certified all the same)\n",
+               model.name);
+    judge(points, CgalPeer(points), FclPeer(points), size, bench);
+    return false;
+  }
+  const CgalPeer cgal(points);
+  const FclPeer fcl(points);
+  const Capsule<double> capsule = minimal_capsule(hull).volume;
+  Results& r = bench.results;
+  r.know(model.name, "box", model.box), r.know(model.name, "sphere", model.sphere);
+  r.know(model.name, "capsule", model.capsule), r.know(model.name, "lozenge", model.lozenge);
+  r.run(model.name, quick_ways(points, cloud, cgal, fcl), 7);
+  r.run(model.name, search_ways(points, cgal), 3);
+  r.run(model.name, hull_ways(hull, capsule), 3);
+  r.run(model.name, proven_ways(hull, capsule), 1);
+  // What a proof has found on its way counts as known.
+  for (const char* way : {"box, proven to 0.01 %", "capsule, proven to 2 %", "lozenge, proven to 2 %"}) {
+    const std::string name = way;
+    r.know(model.name, name.substr(0, name.find(',')), r.of(name, model.name)->volume);
+  }
+  judge(points, cgal, fcl, size, bench);
+  bench.sizes[model.name] = {points.size(), hull.vertices.size()};
+  return true;
 }
 
-void run_large(const char* name, const std::vector<Double3>& points) {
-  const CgalPoints copies = for_cgal(points);
-  double prepare = 0, sphere = 0, hull_ms = 0, box = 0, cs = 0, cb = 0;
-  const PointCloud cloud = timed([&] { return make_point_cloud(points).value(); }, prepare);
-  const auto ball = timed([&] { return smallest_sphere(cloud); }, sphere);
-  const ConvexHull hull = timed([&] { return convex_hull(cloud); }, hull_ms, 1);
-  const auto fit = timed([&] { return minimal_box(hull); }, box, 1);
-  const double theirs = timed([&] { return cgal_sphere(copies); }, cs);
-  const double their_box = timed([&] { return cgal_box(copies); }, cb, 1);
-  fmt::print("\n{}: preparation {:.1f} ms; sphere {:.1f} ms (CGAL {:.1f}, ours / theirs {:.12f});\n", name,
-             prepare, sphere, cs, hull.frame.volume_out(measures_of(ball.fit.volume).volume) / theirs);
-  fmt::print(
-      "  hull {:.0f} ms, {} corners of {} kept, loss {:.1e}; box {:.0f} ms; all {:.0f} ms (CGAL {:.0f}, ours "
-      "/ theirs {:.6f}), volume / bound {:.4f}\n",
-      hull_ms, hull.vertices.size(), hull.boundary.size(), hull.loss, box, prepare + hull_ms + box, cb,
-      hull.frame.volume_out(measures_of(fit.volume).volume) / their_box,
-      measures_of(fit.volume).volume / fit.lower_bound);
+void print_models(const std::vector<BenchModel>& models, const Bench& bench) {
+  constexpr std::array k_columns{std::pair{"sphere, minimal, with preparation", "sphere"},
+                                 std::pair{"box, minimal, with hull", "box"},
+                                 std::pair{"box, CGAL oriented_bounding_box", "CGAL's box"},
+                                 std::pair{"capsule, minimal, after the hull", "capsule"},
+                                 std::pair{"lozenge, minimal, after hull and capsule", "lozenge"}};
+  fmt::print("\n## Every model\n\nVolume / best, ms.\n\n| model | points | corners |");
+  for (const auto& [way, title] : k_columns) fmt::print(" {} | |", title);
+  fmt::print("\n|---|---:|---:|");
+  for (std::size_t i = 0; i < k_columns.size(); ++i) fmt::print("---:|---:|");
+  fmt::print("\n");
+  for (const BenchModel& model : models) {
+    const auto size = bench.sizes.find(model.name);
+    if (size == bench.sizes.end()) continue;
+    fmt::print("| {} | {} | {} |", model.name, size->second[0], size->second[1]);
+    for (const auto& [name, title] : k_columns) {
+      const auto way = std::find_if(bench.results.order().begin(), bench.results.order().end(),
+                                    [&](const Way& w) { return w.name == name; });
+      const Measured* m = bench.results.of(name, model.name);
+      fmt::print(" {:.5f} | {:.2f} |", bench.results.ratio(*way, *m), m->ms);
+    }
+    fmt::print("\n");
+  }
 }
 
 std::vector<Double3> gaussian_points(int n) {
@@ -223,35 +335,67 @@ std::vector<Double3> gaussian_points(int n) {
   return points;
 }
 
+template <class Work>
+auto timed(Work&& work, double& ms) {
+  const double start = cpu_ms();
+  auto result = work();
+  ms = cpu_ms() - start;
+  return result;
+}
+
+void run_large(const char* name, const std::vector<Double3>& points) {
+  const CgalPeer cgal(points);
+  double prepare = 0, sphere = 0, hull_ms = 0, box = 0, cs = 0, cb = 0;
+  const PointCloud cloud = timed([&] { return make_point_cloud(points).value(); }, prepare);
+  const auto ball = timed([&] { return smallest_sphere(cloud); }, sphere);
+  const ConvexHull hull = timed([&] { return convex_hull(cloud); }, hull_ms);
+  const auto fit = timed([&] { return minimal_box(hull); }, box);
+  const auto theirs = timed([&] { return cgal.sphere(); }, cs);
+  const double their_box = timed([&] { return cgal.box_volume(); }, cb);
+  fmt::print(
+      "- {}: preparation {:.1f} ms; sphere {:.1f} ms (CGAL {:.1f}, ours / theirs {:.12f}); hull {:.0f} ms, "
+      "{} "
+      "corners of {} kept, loss {:.1e}; box {:.0f} ms; preparation, hull and box {:.0f} ms (CGAL's box "
+      "{:.0f} ms, "
+      "ours / theirs {:.6f})\n",
+      name, prepare, sphere, cs, volume_of(ball.fit.volume, hull.frame) / volume_of(theirs), hull_ms,
+      hull.vertices.size(), hull.boundary.size(), hull.loss, box, prepare + hull_ms + box, cb,
+      volume_of(fit.volume, hull.frame) / their_box);
+}
+
+std::string load() {
+  std::array<double, 3> average{};
+  return getloadavg(average.data(), 3) == 3 ? fmt::format("{:.1f}", average[0]) : "unknown";
+}
+
 int run() {
-  namespace fs = std::filesystem;
-  if (fs::exists(k_archive)) {
-    const fs::path folder = fs::temp_directory_path() / "copse-bench-volumes";
-    fs::create_directories(folder);
-    const std::string command = fmt::format("tar -xzf {} -C {}", k_archive, folder.string());
-    if (std::system(command.c_str()) != 0) return 1;
-    fmt::print(
-        "model, points, corners; then volume / best known and ms of: sphere, CGAL's, gaussian box, CGAL's, "
-        "minimal box, CGAL's, capsule, lozenge\n");
-    Table table;
-    for (const Model& model : models()) {
-      const auto mesh = import_mesh(folder / "data" / model.file);
-      if (mesh) {
-        run_model(model, mesh->mesh.positions, table);
-      } else {
-        fmt::print("{}: {}\n", model.file, mesh.error().what);
-      }
-    }
-    table.print();
-    fs::remove_all(folder);
-  } else {
-    fmt::print("no reference models: apt-get install libcgal-demo\n");
-  }
+  const BenchModels models;
+  fmt::print("# Bounding volumes, as measured\n\n    ./run bench volumes\n\n");
+  fmt::print("Load average at the start: {}.\n\n## Models\n\n", load());
+  std::map<std::string, std::size_t> sources;
+  Bench bench;
+  for (const BenchModel& model : models.found()) sources[model.source] += run_model(model, bench);
+  for (const auto& [source, count] : sources) fmt::print("- {}: {}\n", source, count);
+  for (const std::string& line : models.missing()) fmt::print("- missing: {}\n", line);
+  fmt::print("\n## Volumes and times\n\n");
+  bench.results.print();
+  fmt::print(
+      "\n## Points outside\n\nIn exact arithmetic, in the very numbers that each gives. Ours: every method "
+      "of every "
+      "type, float32 as stored.\n\n| whose | volumes | with points outside | points | worst, of the diagonal "
+      "|\n"
+      "|---|---:|---:|---:|---:|\n");
+  bench.ours.print("bvfit, all methods");
+  bench.cgal_spheres.print("CGAL Min_sphere_of_spheres_d (double)");
+  if (FclPeer::available) bench.fcl_boxes.print("FCL OBB"), bench.fcl_lozenges.print("FCL RSS");
+  fmt::print("\n## Many points\n\n");
   run_large("1 000 000 Gaussian points", gaussian_points(1'000'000));
   std::vector<Double3> sphere = gaussian_points(200'000);
   for (Double3& p : sphere) p = normalized(p);
   run_large("200 000 co-spherical points", sphere);
-  return 0;
+  print_models(models.found(), bench);
+  fmt::print("\nLoad average at the end: {}.\n", load());
+  return bench.ours.leaky == 0 ? 0 : 1;
 }
 
 }  // namespace

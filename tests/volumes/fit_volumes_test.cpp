@@ -4,17 +4,21 @@
 #include "tests/volumes/batteries.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace copse {
 namespace {
 
 using Points = std::vector<Double3>;
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-std::vector<FittedVolume> fit_all(const Points& points, const FitOptions& options = {}) {
-  const auto fitter = VolumeFitter::make(points);
+std::vector<FittedVolume> fit_all(const Points& points, const FitOptions& options = {},
+                                  const Triangles& triangles = {}) {
+  const auto fitter = VolumeFitter::make(points, triangles);
   EXPECT_TRUE(fitter) << fitter.error().what;
   std::vector<FittedVolume> out;
   for (const FitMethod& m : fit_methods()) {
@@ -83,35 +87,92 @@ TEST(FitVolumes, KnownVolumesAreFound) {
   EXPECT_NEAR(of(line, VolumeKind::sphere, "minimal").measures.volume, 3226.851027, 1e-2);
 }
 
-TEST(FitVolumes, NotOneByteDependsOnTheOrderOrRepetitionOfThePoints) {
-  Points points = battery::turned(battery::twig(10));
-  const auto before = fit_all(points);
-  Random random(1);
-  random.shuffle(std::span(points));
-  points.insert(points.end(), points.begin(), points.begin() + 50);
-  const auto after = fit_all(points);
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    if (!before[i].method.least) continue;  // a mean depends on repetition, and sums on the order
-    EXPECT_EQ(before[i].volume, after[i].volume)
-        << name_of(before[i].method.kind) << " " << before[i].method.name;
-    EXPECT_EQ(before[i].lower_bound, after[i].lower_bound);
+// A closed surface over some of the points: what the method that weighs the surface goes by.
+Triangles triangles_over(const Points& points) {
+  const ConvexHull hull = convex_hull(make_point_cloud(points).value());
+  Triangles out;
+  for (const auto& f : hull.faces)
+    out.push_back({hull.indices[f[0]], hull.indices[f[1]], hull.indices[f[2]]});
+  return out;
+}
+
+std::string label(const FittedVolume& v) {
+  return fmt::format("{} {}", name_of(v.method.kind), v.method.name);
+}
+
+TEST(FitVolumes, NotOneByteOfAnyMethodDependsOnTheOrderOrRepetitionOfThePoints) {
+  for (const Points& points :
+       {battery::turned(battery::twig(10)), battery::cloud(300, {1, 0.5, 2}, 9), battery::lattice(9, 3),
+        battery::torus(20, 12, 0.5, 0.2), battery::turned(battery::grid(10, 7, {1, 0, 0}, {0, 1, 0})),
+        battery::cloud(9000, {1, 1, 1}, 10)}) {
+    Triangles triangles = triangles_over(points);
+    const auto before = fit_all(points, {}, triangles);
+    Random random(1);
+    std::vector<std::uint32_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0u);
+    random.shuffle(std::span(order));
+    Points shuffled(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) shuffled[order[i]] = points[i];
+    shuffled.insert(shuffled.end(), points.begin(), points.begin() + 4);
+    for (auto& t : triangles) {
+      for (std::uint32_t& v : t) v = order[v];
+    }
+    random.shuffle(std::span(triangles));
+    const auto after = fit_all(shuffled, {}, triangles);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      EXPECT_EQ(before[i].volume, after[i].volume) << label(before[i]) << " of " << points.size();
+      EXPECT_EQ(before[i].lower_bound, after[i].lower_bound) << label(before[i]) << " of " << points.size();
+    }
   }
 }
 
-TEST(FitVolumes, ScaleAndPlaceChangeNothingButRounding) {
+// Powers of two change no digit of a coordinate, so that they may change none of the fit either.
+TEST(FitVolumes, ScaleByAPowerOfTwoChangesNothingButTheExponentsOfAnyMethod) {
   const Points points = battery::turned(battery::cloud(200, {1, 2, 4}, 3));
-  const auto base = fit_all(points);
-  for (const double scale : {0x1p-90, 0x1p90}) {
-    const auto scaled = fit_all(battery::scaled(points, scale));
+  const Triangles triangles = triangles_over(points);
+  const auto base = fit_all(points, {}, triangles);
+  for (const double scale : {0x1p-100, 0x1p100}) {  // 1e-30 and 1e30
+    const auto scaled = fit_all(battery::scaled(points, scale), {}, triangles);
+    ASSERT_EQ(scaled.size(), base.size());
     for (std::size_t i = 0; i < base.size(); ++i) {
-      EXPECT_NEAR(scaled[i].measures.volume / (scale * scale * scale) / base[i].measures.volume, 1, 1e-5)
-          << name_of(base[i].method.kind) << " " << base[i].method.name << " " << scale;
+      const std::vector<float> a = numbers_of(base[i].volume), b = numbers_of(scaled[i].volume);
+      for (std::size_t k = 0; k < a.size(); ++k) {
+        // Axes and normals have no length.
+        const bool same = b[k] == static_cast<float>(a[k] * scale) || b[k] == a[k];
+        EXPECT_TRUE(same) << label(base[i]) << " number " << k << " at scale " << scale << ": " << a[k] << " "
+                          << b[k];
+      }
+      EXPECT_EQ(scaled[i].measures.volume, base[i].measures.volume * scale * scale * scale) << label(base[i]);
     }
   }
-  const auto moved = fit_all(battery::scaled(points, 1, {1e4, -1e4, 1e4}));
-  for (std::size_t i = 0; i < base.size(); ++i) {
-    EXPECT_NEAR(moved[i].measures.volume / base[i].measures.volume, 1, 1e-2)
-        << name_of(base[i].method.kind) << " " << base[i].method.name;
+}
+
+TEST(FitVolumes, OtherScalesChangeNothingButRoundingOfAnyMethod) {
+  const Points points = battery::turned(battery::cloud(200, {1, 2, 4}, 3));
+  const auto base = fit_all(points);
+  for (const double scale : {1e-30, 3.7e-7, 1e30}) {
+    const auto scaled = fit_all(battery::scaled(points, scale));
+    for (std::size_t i = 0; i < base.size(); ++i) {
+      const double volume = scaled[i].measures.volume / scale / scale / scale;
+      EXPECT_NEAR(volume / base[i].measures.volume, 1, 1e-5) << label(base[i]) << " " << scale;
+    }
+  }
+}
+
+// What float32 can say there: at 1e7 its unit is 1, so that a cloud of a thousand keeps three digits.
+TEST(FitVolumes, APlaceFarAwayChangesNothingButRoundingOfAnyMethod) {
+  const Points points = battery::turned(battery::cloud(200, {1, 2, 4}, 3));
+  const auto base = fit_all(points);
+  for (const double size : {1.0, 1e6}) {
+    for (const double place : {1e4, 1e7}) {
+      if (size < place * 1e-4) continue;
+      const auto moved = fit_all(battery::scaled(points, size, {place, -place, place}));
+      for (std::size_t i = 0; i < base.size(); ++i) {
+        EXPECT_NEAR(moved[i].measures.volume / size / size / size / base[i].measures.volume, 1, 1e-2)
+            << label(base[i]) << " of size " << size << " at " << place;
+        EXPECT_TRUE(moved[i].certified);
+      }
+    }
   }
 }
 

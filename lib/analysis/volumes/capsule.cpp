@@ -6,21 +6,38 @@
 #include <algorithm>
 
 namespace copse {
+namespace {
+
+class FromSegment {
+ public:
+  explicit FromSegment(const Capsule<double>& c) : a_(c.a), d_(c.b - c.a), square_(dot(d_, d_)) {}
+  double squared(const Double3& p) const {
+    const Double3 q = p - a_;
+    const double s = square_ > 0 ? std::clamp(dot(q, d_) / square_, 0.0, 1.0) : 0;
+    const Double3 rest = q - d_ * s;
+    return dot(rest, rest);
+  }
+
+ private:
+  Double3 a_, d_;
+  double square_;
+};
+
+}  // namespace
 
 double interior_volume(const Capsule<double>& c) {
   return swept_volume({distance(c.a, c.b), 0, c.radius});
 }
 
 double distance_from_segment(const Capsule<double>& c, const Double3& p) {
-  const Double3 d = c.b - c.a, q = p - c.a;
-  const double square = dot(d, d);
-  const double s = square > 0 ? std::clamp(dot(q, d) / square, 0.0, 1.0) : 0;
-  return length(q - d * s);
+  return std::sqrt(FromSegment(c).squared(p));
 }
 
 Capsule<double> enclosing(Capsule<double> c, std::span<const Double3> points) {
-  c.radius = 0;
-  for (const Double3& p : points) c.radius = std::max(c.radius, distance_from_segment(c, p));
+  const FromSegment from(c);
+  double square = 0;
+  for (const Double3& p : points) square = std::max(square, from.squared(p));
+  c.radius = std::sqrt(square);
   return c;
 }
 
@@ -36,7 +53,9 @@ Capsule<double> capsule_on_line(std::span<const Double3> points, const Double3& 
   for (const Double3& p : points) square = std::max(square, squared_radius(p));
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Double3& p : points) {
-    const double h = height(p), half = std::sqrt(std::max(0.0, square - squared_radius(p)));
+    const double h = height(p);
+    if (h >= low && h <= high) continue;  // it reaches neither end
+    const double half = std::sqrt(std::max(0.0, square - squared_radius(p)));
     low = std::min(low, h + half), high = std::max(high, h - half);
   }
   if (high < low) low = high = (low + high) / 2;

@@ -1,8 +1,11 @@
 #include "lib/analysis/volumes/lozenge.h"
 
+#include "lib/analysis/volumes/point_cloud.h"
 #include "lib/analysis/volumes/principal_axes.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace copse {
@@ -12,9 +15,29 @@ namespace {
 struct Side {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   void add(double q, double half) { low = std::min(low, q + half), high = std::max(high, q - half); }
+  bool holds(double q) const { return q >= low && q <= high; }  // whatever its half width
   void close() {
     if (high < low) low = high = (low + high) / 2;
   }
+};
+
+class FromRectangle {
+ public:
+  explicit FromRectangle(const Lozenge<double>& l)
+      : origin_(l.origin), edges_{l.edge0, l.edge1}, squares_{dot(l.edge0, l.edge0), dot(l.edge1, l.edge1)} {}
+  double squared(const Double3& p) const {
+    const Double3 q = p - origin_;
+    const auto along = [&](int i) {
+      return squares_[i] > 0 ? std::clamp(dot(q, edges_[i]) / squares_[i], 0.0, 1.0) : 0;
+    };
+    const Double3 rest = q - edges_[0] * along(0) - edges_[1] * along(1);
+    return dot(rest, rest);
+  }
+
+ private:
+  Double3 origin_;
+  std::array<Double3, 2> edges_;
+  std::array<double, 2> squares_;
 };
 
 // Moves the corner towards a point beyond both of its sides until the quarter ball reaches it.
@@ -35,17 +58,14 @@ double interior_volume(const Lozenge<double>& l) {
 }
 
 double distance_from_rectangle(const Lozenge<double>& l, const Double3& p) {
-  const Double3 q = p - l.origin;
-  const auto along = [&](const Double3& edge) {
-    const double square = dot(edge, edge);
-    return square > 0 ? std::clamp(dot(q, edge) / square, 0.0, 1.0) : 0;
-  };
-  return length(q - l.edge0 * along(l.edge0) - l.edge1 * along(l.edge1));
+  return std::sqrt(FromRectangle(l).squared(p));
 }
 
 Lozenge<double> enclosing(Lozenge<double> l, std::span<const Double3> points) {
-  l.radius = 0;
-  for (const Double3& p : points) l.radius = std::max(l.radius, distance_from_rectangle(l, p));
+  const FromRectangle from(l);
+  double square = 0;
+  for (const Double3& p : points) square = std::max(square, from.squared(p));
+  l.radius = std::sqrt(square);
   return l;
 }
 
@@ -64,12 +84,20 @@ Lozenge<double> lozenge_in_frame(std::span<const Double3> points, const Axes& fr
   Side a, b;
   for (const Double3& p : points) {
     const Double3 q = into(frame, p);
+    if (a.holds(q.x) && b.holds(q.y)) continue;
     const double half = std::sqrt(std::max(0.0, s.r * s.r - (q.z - s.h) * (q.z - s.h)));
     a.add(q.x, half), b.add(q.y, half);
   }
   a.close(), b.close();
   s.a0 = a.low, s.a1 = a.high, s.b0 = b.low, s.b1 = b.high;
-  for (const Double3& p : points) move_corner(into(frame, p), s);
+  // What a corner leaves out moves it, in an order that is not that of the points: no other becomes one of
+  // them.
+  std::vector<Double3> beyond;
+  for (const Double3& p : points) {
+    const Double3 q = into(frame, p), e = offset_from(s, q);
+    if (e.x != 0 && e.y != 0 && dot(e, e) > s.r * s.r) beyond.push_back(q);
+  }
+  for (const Double3& q : distinct_points(beyond)) move_corner(q, s);
   return enclosing(placed(s, frame), points);
 }
 

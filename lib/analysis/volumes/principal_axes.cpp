@@ -110,25 +110,31 @@ PrincipalAxes principal_axes(std::span<const Double3> points) {
 
 PrincipalAxes principal_axes(std::span<const Double3> points,
                              std::span<const std::array<std::uint32_t, 3>> triangles) {
-  double area = 0;
-  Double3 first;  // moment
+  OrderFreeSum area_sum;
+  std::array<OrderFreeSum, 3> first;  // moment
   const auto twice_area = [&](const std::array<std::uint32_t, 3>& t) {
     return length(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
   };
   for (const auto& t : triangles) {
     const double a = twice_area(t);
-    area += a;
-    first += (points[t[0]] + points[t[1]] + points[t[2]]) * (a / 3);
+    area_sum.add(a);
+    const Double3 moment = (points[t[0]] + points[t[1]] + points[t[2]]) * (a / 3);
+    for (int i = 0; i < 3; ++i) first[i].add(moment[i]);
   }
+  const double area = area_sum.value();
   if (!(area > 0)) return principal_axes(points);
-  const Double3 mean = first / area;
-  std::array<double, 6> covariance{};
+  const Double3 mean = Double3{first[0].value(), first[1].value(), first[2].value()} / area;
+  std::array<OrderFreeSum, 6> sums;
   for (const auto& t : triangles) {
     const double weight = twice_area(t) / area / 12;
     const Double3 d0 = points[t[0]] - mean, d1 = points[t[1]] - mean, d2 = points[t[2]] - mean;
-    add_outer(covariance, d0 + d1 + d2, weight);
-    add_outer(covariance, d0, weight), add_outer(covariance, d1, weight), add_outer(covariance, d2, weight);
+    std::array<double, 6> own{};
+    add_outer(own, d0 + d1 + d2, weight);
+    add_outer(own, d0, weight), add_outer(own, d1, weight), add_outer(own, d2, weight);
+    for (int i = 0; i < 6; ++i) sums[i].add(own[i]);
   }
+  std::array<double, 6> covariance;
+  for (int i = 0; i < 6; ++i) covariance[i] = sums[i].value();
   return from_covariance(mean, covariance);
 }
 

@@ -24,8 +24,8 @@ struct PrincipalAxes {
 // below 2^-52 are rounding. No points: the origin and the world's axes. O(n).
 PrincipalAxes principal_axes(std::span<const Double3> points);
 
-// Of the triangles' area, each triangle's own spread included. Without area: of the points. Here the order of
-// the triangles is the order of the sums.
+// Of the triangles' area, each triangle's own spread included. Without area: of the points. The order of the
+// triangles does not change one bit either.
 PrincipalAxes principal_axes(std::span<const Double3> points,
                              std::span<const std::array<std::uint32_t, 3>> triangles);
 
