@@ -1,4 +1,4 @@
-// libFuzzer over everything that reads a .tree, .stree or .eco.
+// libFuzzer over everything that reads a .tree or .stree.
 #include "tests/formats/read_everything.h"
 
 #include <cstdio>

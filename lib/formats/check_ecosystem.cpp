@@ -1,6 +1,7 @@
 #include "lib/formats/check_ecosystem.h"
 
 #include "lib/formats/ecosystem_file.h"
+#include "lib/formats/instance_bounds.h"
 #include "lib/formats/instance_codec.h"
 #include "lib/formats/scan.h"
 
@@ -75,25 +76,14 @@ void check_blocks(const Ecosystem& eco, Findings& findings) {
       findings.add("ETYP", i, "its number of instances is not that of its blocks");
 }
 
-// Every bit of the 24 bytes means something, so little can be wrong: bits above the fields, rotations whose
-// three parts are longer than 1, materials.
+// Every bit of the 24 bytes means something, so little can be wrong: bits above the fields, codes of
+// rotations that are one step too many, materials.
 void check_packed(const Ecosystem& eco, Findings& findings) {
   const auto materials = static_cast<std::uint32_t>(eco.materials.size());
   const auto bad_material = [&](std::uint8_t m) { return m != k_own_material && m >= materials; };
   const auto is_bad = [&](const PackedInstance& i) {
-    constexpr std::uint64_t k_mask = (std::uint64_t{1} << k_rotation_bits) - 1, k_zero = k_mask >> 1;
-    std::uint64_t sum = 0;
-    bool over = false;
-    for (std::uint32_t part = 0; part < 3; ++part) {
-      const std::uint64_t v = i.rotation >> (part * k_rotation_bits) & k_mask;
-      over |= v == k_mask;  // one step more than there are
-      const std::uint64_t d = v > k_zero ? v - k_zero : k_zero - v;
-      sum += d * d;
-    }
-    // The squares of the three add up to 1/2 (sum / zero^2); the largest is at least as large as each of
-    // them.
-    return over || i.position >> 63 || i.rotation >> 62 || sum > 2 * k_zero * k_zero ||
-           bad_material(i.trunk_material) || bad_material(i.leaf_material);
+    return i.position >> 63 || !is_packed_rotation(i.rotation) || bad_material(i.trunk_material) ||
+           bad_material(i.leaf_material);
   };
   std::size_t bad = 0;
   for (const PackedInstance& i : eco.packed) bad += is_bad(i);
@@ -192,7 +182,7 @@ void check_ecosystem_boxes(const Ecosystem& eco, Findings& findings) {
   for (std::size_t i = 0; i < eco.blocks.size(); ++i) {
     const InstanceBlock& b = eco.blocks[i];
     for (std::size_t k = b.first; k < b.first + b.count; ++k) {
-      DoubleBox box = transformed(eco.types[b.type].bounds, instance_of(eco, b, k));
+      const DoubleBox box = instance_bounds(eco.types[b.type], instance_of(eco, b, k));
       if (box.empty()) continue;
       const DoubleBox local{box.min - eco.origin, box.max - eco.origin};
       // Judged with the rounding of the judge: a few units in the last place of doubles of this size.

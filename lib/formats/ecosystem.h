@@ -9,6 +9,7 @@
 #include "lib/formats/material.h"
 #include "lib/formats/tree.h"
 #include "lib/formats/vec.h"
+#include "lib/formats/volume.h"
 
 #include <array>
 #include <cstdint>
@@ -49,6 +50,9 @@ struct TreeType {
   std::uint32_t instances = 0;         // in all blocks
   float scale_min = 1, scale_max = 1;  // of its instances, > 0
   float view_range = 0;                // instances farther away are not drawn; 0: no limit
+  // Each holds the whole tree at rest (wherever it sways), in the coordinates of `bounds`: what an instance's
+  // box is made of, with `bounds` (instance_bounds.h). Not from every tree: bvfit fits them. No k-DOPs.
+  std::vector<Volume<float>> volumes{}, envelopes{};
 };
 
 using Quaternion = std::array<double, 4>;  // x, y, z, w; length 1
@@ -64,15 +68,18 @@ struct Instance {
   std::uint32_t leaf_material = k_none;
   std::uint32_t motion = 0;                         // which of the player's motions; 0: it stands still
   std::array<std::uint8_t, 3> tint{255, 255, 255};  // sRGB; multiplies its colours
+  // Of one that is yet to be stored: its foot stands on the ground, its axis is the ground's normal, whatever
+  // the rounding of x and z makes of them. Not in files.
+  bool on_ground = false, along_normal = false;
 };
 
-inline constexpr std::uint32_t k_position_bits = 21, k_rotation_bits = 20;
+inline constexpr std::uint32_t k_position_bits = 21, k_axis_bits = 22, k_head_bits = 20;
 inline constexpr std::uint8_t k_own_material = 255;
 
 // An instance in 24 bytes; what it means is said by its block (instance_codec.h).
 struct PackedInstance {
   std::uint64_t position = 0;  // x, y, z: 21 bits each from the lowest, in steps from the block's origin
-  std::uint64_t rotation = 0;  // the three smaller parts, 20 bits each from the lowest; then which is largest
+  std::uint64_t rotation = 0;  // where +Y goes, octahedral, 2 x 22 bits from the lowest; 20 bits of head
   std::uint16_t scale = 0;     // of 65535, between the type's scale_min and scale_max
   std::array<std::uint8_t, 3> tint{};
   std::uint8_t trunk_material = k_own_material, leaf_material = k_own_material;

@@ -3,6 +3,7 @@
 #include "lib/formats/check_ecosystem.h"
 #include "lib/formats/ecosystem_header.h"
 #include "lib/formats/ecosystem_sections.h"
+#include "lib/formats/type_volumes.h"
 
 #include <utility>
 
@@ -44,7 +45,7 @@ Result<void> EcosystemFile::Impl::check_section(std::string_view name, std::uint
     if (count == 0) return {};
     return missing(name);
   }
-  if (section->version != 1)
+  if (section->version != section_version(name))
     return file.refuse_section(*section, 0,
                                fmt::format("version {} is unknown to this program", section->version));
   if (section->stride != stride)
@@ -65,6 +66,10 @@ Result<void> EcosystemFile::Impl::check_table() const {
   check("ETYP", counts.types, k_type_record);
   for (const std::string_view name : {"PROV", "MNAM", "TNAM", "ENAM", "TDAT"})
     if (const SectionInfo* section = file.find(name)) check(name, section->decoded_size, 1);
+  const std::pair<std::string_view, std::size_t> volumes[] = {{"EVOL", k_type_volume_record},
+                                                              {"EVNM", sizeof(float)}};
+  for (const auto& [name, stride] : volumes)
+    if (const SectionInfo* section = file.find(name)) check(name, section->decoded_size / stride, stride);
   for_each_array(head, counts, [&]<class T>(std::string_view name, const Array<T>&, std::uint64_t count) {
     check(name, count, sizeof(T));
   });
@@ -79,10 +84,11 @@ Result<void> EcosystemFile::Impl::load_records(Ecosystem& eco, Verify verify) co
     return {};
   };
   Array<std::uint8_t> provenance, materials, material_names, textures, texture_names, images, types,
-      type_names;
+      type_names, volumes, volume_numbers;
   const std::pair<std::string_view, Array<std::uint8_t>*> wanted[] = {
-      {"PROV", &provenance},    {"MATL", &materials}, {"MNAM", &material_names}, {"TEXR", &textures},
-      {"TNAM", &texture_names}, {"TDAT", &images},    {"ETYP", &types},          {"ENAM", &type_names}};
+      {"PROV", &provenance},    {"MATL", &materials},     {"MNAM", &material_names}, {"TEXR", &textures},
+      {"TNAM", &texture_names}, {"TDAT", &images},        {"ETYP", &types},          {"ENAM", &type_names},
+      {"EVOL", &volumes},       {"EVNM", &volume_numbers}};
   for (const auto& [name, out] : wanted)
     if (auto done = read(name, *out); !done) return done;
   eco.provenance.assign(provenance.begin(), provenance.end());
@@ -93,6 +99,8 @@ Result<void> EcosystemFile::Impl::load_records(Ecosystem& eco, Verify verify) co
   std::vector<bool> packed;
   if (const auto f = decode_types(types, type_names, eco.types, packed); !f.what.empty())
     return refuse_fault("ETYP", f);
+  if (const auto f = decode_type_volumes(volumes, volume_numbers, eco.types); !f.what.empty())
+    return refuse_fault("EVOL", f);
   for (std::size_t i = 0; i < eco.types.size(); ++i) {
     if (!packed[i]) continue;
     if (!file.find(packed_section(i))) return missing(packed_section(i));

@@ -9,6 +9,11 @@
 
 namespace copse {
 
+// EINS is 2 since rotations are stored as an axis and a head; all others are 1.
+inline std::uint32_t section_version(std::string_view name) {
+  return name == "EINS" ? 2 : 1;
+}
+
 // Calls visit(name, array, count): `counts` and the head of `eco` give the counts that a file must have.
 template <class EcosystemRef, class Visit>
 void for_each_array(EcosystemRef& eco, const EcosystemCounts& counts, Visit&& visit) {

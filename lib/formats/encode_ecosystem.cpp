@@ -1,6 +1,7 @@
 #include "lib/formats/ecosystem_file.h"
 #include "lib/formats/ecosystem_header.h"
 #include "lib/formats/ecosystem_sections.h"
+#include "lib/formats/type_volumes.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +37,8 @@ Result<std::vector<std::uint8_t>> encode_ecosystem(const Ecosystem& eco, Encodin
   Result<void> state = writer.put("EHED", 1, 1, encode_ecosystem_head(eco));
   const auto put = [&](std::string_view name, std::size_t stride, Array<std::uint8_t> bytes) {
     if (state && !bytes.empty())
-      state = writer.put(name, 1, static_cast<std::uint32_t>(stride), std::move(bytes), encoding);
+      state = writer.put(name, section_version(name), static_cast<std::uint32_t>(stride), std::move(bytes),
+                         encoding);
   };
   put("PROV", 1, std::vector<std::uint8_t>(eco.provenance.begin(), eco.provenance.end()));
   auto materials = encode_materials(eco.materials);
@@ -48,6 +50,9 @@ Result<std::vector<std::uint8_t>> encode_ecosystem(const Ecosystem& eco, Encodin
   auto types = encode_types(eco.types);
   put("ETYP", k_type_record, std::move(types.records));
   put("ENAM", 1, std::move(types.texts));
+  auto volumes = encode_type_volumes(eco.types);
+  put("EVOL", k_type_volume_record, std::move(volumes.records));
+  put("EVNM", sizeof(float), std::move(volumes.numbers));
   EcosystemCounts counts;
   for_each_array(eco, counts, [&]<class T>(std::string_view name, const Array<T>& array, std::uint64_t) {
     put(name, sizeof(T), bytes_of(array));

@@ -2,19 +2,71 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace copse {
 namespace {
 
 constexpr std::uint64_t k_most_steps = (std::uint64_t{1} << k_position_bits) - 1;
-constexpr std::uint64_t k_rotation_mask = (std::uint64_t{1} << k_rotation_bits) - 1;
-constexpr double k_rotation_zero = static_cast<double>((1 << (k_rotation_bits - 1)) - 1);
-constexpr double k_half_root = 0.70710678118654752440;
+constexpr std::int64_t k_axis_zero = (std::int64_t{1} << (k_axis_bits - 1)) - 1;
+constexpr std::int64_t k_head_zero = (std::int64_t{1} << (k_head_bits - 1)) - 1;
+constexpr std::uint64_t k_axis_mask = (std::uint64_t{1} << k_axis_bits) - 1;
 
 std::uint64_t steps(double distance, float step) {
   if (!(step > 0)) return 0;
   const double n = std::floor(distance / static_cast<double>(step) + 0.5);
   return static_cast<std::uint64_t>(std::clamp(n, 0.0, static_cast<double>(k_most_steps)));
+}
+
+// A point of the octahedron whose lower half is folded outwards: x and z in steps of 1 / k_axis_zero.
+struct OctahedralPoint {
+  std::int64_t x = 0, z = 0;
+};
+
+std::int64_t nearest_step(double v, std::int64_t zero) {
+  return std::clamp(static_cast<std::int64_t>(std::floor(v * static_cast<double>(zero) + 0.5)), -zero, zero);
+}
+
+// On the octahedron of size k_axis_zero, so in whole numbers.
+Double3 direction_of(const OctahedralPoint& p) {
+  const std::int64_t across = std::abs(p.x), down = std::abs(p.z), y = k_axis_zero - across - down;
+  if (y >= 0) return {static_cast<double>(p.x), static_cast<double>(y), static_cast<double>(p.z)};
+  const auto x = static_cast<double>(k_axis_zero - down), z = static_cast<double>(k_axis_zero - across);
+  return {p.x < 0 ? -x : x, static_cast<double>(y), p.z < 0 ? -z : z};
+}
+
+// Of the four around the direction `n` that which is nearest in angle; ties the first.
+OctahedralPoint nearest_point(const Double3& n) {
+  const double sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+  double x = n.x / sum, z = n.z / sum;
+  if (n.y < 0) {
+    const double folded = (1 - std::abs(z)) * (x < 0 ? -1 : 1);
+    z = (1 - std::abs(x)) * (z < 0 ? -1 : 1);
+    x = folded;
+  }
+  const auto low = [](double v) {
+    const auto step = static_cast<std::int64_t>(std::floor(v * static_cast<double>(k_axis_zero)));
+    return std::clamp(step, -k_axis_zero, k_axis_zero - 1);
+  };
+  const std::int64_t x0 = low(x), z0 = low(z);
+  OctahedralPoint best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const OctahedralPoint p : {OctahedralPoint{x0, z0}, {x0 + 1, z0}, {x0, z0 + 1}, {x0 + 1, z0 + 1}}) {
+    const Double3 d = direction_of(p), off = cross(n, d);
+    const double error = dot(off, off) / dot(d, d);
+    if (error < least) least = error, best = p;
+  }
+  return best;
+}
+
+// The shortest rotation from +Y to the direction `d` of any length; half a turn about x to -Y.
+Quaternion shortest_from_y(const Double3& d) {
+  const double across = d.x * d.x + d.z * d.z, size = std::sqrt(across + d.y * d.y);
+  // size + d.y, without cancellation.
+  const double w = d.y >= 0 ? size + d.y : across / (size - d.y);
+  if (!(w > 0)) return {1, 0, 0, 0};
+  const double length = std::sqrt(across + w * w);
+  return {d.z / length, 0, -d.x / length, w / length};
 }
 
 std::uint8_t small_index(std::uint32_t material) {
@@ -48,35 +100,34 @@ Double3 unpack_position(std::uint64_t packed, const InstanceBlock& block) {
 }
 
 std::uint64_t pack_rotation(const Quaternion& rotation) {
-  std::size_t largest = 0;
-  for (std::size_t i = 1; i < 4; ++i)
-    if (std::abs(rotation[i]) > std::abs(rotation[largest])) largest = i;
-  const double sign = rotation[largest] < 0 ? -1 : 1;  // q and -q turn alike
-  std::uint64_t packed = std::uint64_t{largest} << (3 * k_rotation_bits);
-  std::uint32_t shift = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (i == largest) continue;
-    const double part = std::clamp(sign * rotation[i] / k_half_root, -1.0, 1.0);
-    packed |= static_cast<std::uint64_t>(std::floor((part + 1) * k_rotation_zero + 0.5)) << shift;
-    shift += k_rotation_bits;
-  }
-  return packed;
+  const Double3 axis = rotate(rotation, {0, 1, 0});
+  const OctahedralPoint point = nearest_point(axis);
+  const Quaternion tilt = shortest_from_y(direction_of(point));
+  // What is left, conj(tilt) * rotation, turns about y: its y and w, of the sign that makes w >= 0.
+  double y = tilt[3] * rotation[1] - tilt[2] * rotation[0] + tilt[0] * rotation[2];
+  double w = tilt[3] * rotation[3] + tilt[0] * rotation[0] + tilt[2] * rotation[2];
+  if (w < 0 || (w == 0 && y < 0)) y = -y, w = -w;
+  const double length = std::sqrt(y * y + w * w);
+  const double tangent = length > 0 ? y / (length + w) : 0;
+  const auto head = static_cast<std::uint64_t>(nearest_step(tangent, k_head_zero) + k_head_zero);
+  return static_cast<std::uint64_t>(point.x + k_axis_zero) |
+         static_cast<std::uint64_t>(point.z + k_axis_zero) << k_axis_bits | head << (2 * k_axis_bits);
 }
 
 Quaternion unpack_rotation(std::uint64_t packed) {
-  const std::size_t largest = packed >> (3 * k_rotation_bits) & 3;
-  Quaternion q{};
-  double rest = 1;
-  std::uint32_t shift = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (i == largest) continue;
-    const double part = static_cast<double>(packed >> shift & k_rotation_mask);
-    q[i] = (part - k_rotation_zero) / k_rotation_zero * k_half_root;
-    rest -= q[i] * q[i];
-    shift += k_rotation_bits;
-  }
-  q[largest] = std::sqrt(std::max(rest, 0.0));
-  return q;
+  const OctahedralPoint point{static_cast<std::int64_t>(packed & k_axis_mask) - k_axis_zero,
+                              static_cast<std::int64_t>(packed >> k_axis_bits & k_axis_mask) - k_axis_zero};
+  const Quaternion tilt = shortest_from_y(direction_of(point));
+  const double t = static_cast<double>(static_cast<std::int64_t>(packed >> (2 * k_axis_bits)) - k_head_zero) /
+                   static_cast<double>(k_head_zero);
+  const double sine = 2 * t / (1 + t * t), cosine = (1 - t * t) / (1 + t * t);  // of half the head
+  return {tilt[0] * cosine - tilt[2] * sine, tilt[3] * sine, tilt[0] * sine + tilt[2] * cosine,
+          tilt[3] * cosine};
+}
+
+bool is_packed_rotation(std::uint64_t packed) {
+  return (packed & k_axis_mask) != k_axis_mask && (packed >> k_axis_bits & k_axis_mask) != k_axis_mask &&
+         packed >> (2 * k_axis_bits) != (std::uint64_t{1} << k_head_bits) - 1;
 }
 
 std::uint16_t pack_scale(double scale, const TreeType& type) {

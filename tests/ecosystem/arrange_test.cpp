@@ -29,7 +29,9 @@ std::vector<Instance> random_instances(std::size_t count, double size, std::uint
     out[i] = {.position = {x, here->height, z},
               .rotation = with_head(tilt_to(here->normal), r.uniform(0, 360)),
               .scale = r.uniform(0.5, 1.5),
-              .type = static_cast<std::uint32_t>(r.below(types))};
+              .type = static_cast<std::uint32_t>(r.below(types)),
+              .on_ground = true,
+              .along_normal = true};
   }
   return out;
 }
@@ -176,11 +178,43 @@ TEST(Arrange, WhatDoesNotFit24BytesIsRefusedUnlessExact) {
 
 TEST(Arrange, AMillionInOnePointAreAMillion) {
   Ecosystem eco = with_types(1);
-  ASSERT_TRUE(arrange(std::vector<Instance>(100000, Instance{.position = {1, 2, 3}}), options(256), eco));
+  const Instance one{.position = {1, 2, 3}, .on_ground = true};
+  ASSERT_TRUE(arrange(std::vector<Instance>(100000, one), options(256), eco));
   EXPECT_EQ(check_ecosystem(eco), std::vector<std::string>{});
   EXPECT_EQ(eco.instance_count(), 100000u);
   EXPECT_EQ(eco.position_error,
             round_up(distance({1, 2, 3}, {1, TerrainGround(k_terrain).at(1, 3)->height, 3})));
+}
+
+TEST(Arrange, AxesAreTheNormalsUnderWhereTheyAreStored) {
+  const TerrainGround ground(k_terrain);
+  for (const bool exact : {false, true}) {
+    Ecosystem eco = with_types(2);
+    const auto instances = random_instances(20000, 256, 2);
+    const auto order = arrange(instances, options(256, exact), eco);
+    ASSERT_TRUE(order);
+    for (const InstanceBlock& b : eco.blocks)
+      for (std::size_t i = b.first; i < b.first + b.count; ++i) {
+        const Instance s = instance_of(eco, b, i);
+        const Double3 normal = ground.at(s.position.x, s.position.z)->normal;
+        EXPECT_LT(distance(rotate(s.rotation, {0, 1, 0}), normal), 1e-6);
+        EXPECT_LT(distance(s.position, instances[(*order)[i]].position), 1e-3);
+      }
+  }
+}
+
+TEST(Arrange, WhatFloatsStaysWhereItIsAndTheRestStandsAllTheSame) {
+  auto instances = random_instances(2000, 256, 1);
+  instances[7].position.y = 123, instances[7].on_ground = false;
+  Ecosystem eco = with_types(1);
+  const auto order = arrange(instances, options(256), eco);
+  ASSERT_TRUE(order);
+  const TerrainGround ground(k_terrain);
+  for (const InstanceBlock& b : eco.blocks)
+    for (std::size_t i = b.first; i < b.first + b.count; ++i) {
+      const Double3 p = instance_of(eco, b, i).position;
+      EXPECT_NEAR(p.y, (*order)[i] == 7 ? 123 : ground.at(p.x, p.z)->height, 1e-4);
+    }
 }
 
 TEST(Arrange, TypesWithoutAShapeAreSoundToo) {

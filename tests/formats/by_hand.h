@@ -60,6 +60,7 @@ struct Part {
   Bytes bytes;
   std::uint32_t encoding = 0;
   std::size_t decoded = 0;  // of a compressed part
+  std::uint32_t version = 1;
 };
 
 inline std::uint64_t hash(const std::vector<std::uint8_t>& bytes) {
@@ -72,7 +73,7 @@ inline std::vector<std::uint8_t> file(std::uint32_t kind, const std::vector<Part
   for (const Part& p : parts) {
     const std::size_t offset = (end + 63) / 64 * 64, size = p.bytes.get().size();
     table.text(p.name)
-        .u32({1, p.encoding, p.stride})
+        .u32({p.version, p.encoding, p.stride})
         .u64(offset)
         .u64(size)
         .u64(p.encoding ? p.decoded : size);

@@ -51,9 +51,9 @@ Bytes blocks(bool exact) {
 
 // Steps (0, 0, 0) and (2, 0, 4); no turn, and a half turn about y (x, y, z, w = 0, 1, 0, 0).
 Bytes instances() {
-  const std::uint64_t zero = (1 << 19) - 1;
-  const std::uint64_t none = zero | zero << 20 | zero << 40 | std::uint64_t{3} << 60;
-  const std::uint64_t half = zero | zero << 20 | zero << 40 | std::uint64_t{1} << 60;
+  const std::uint64_t up = 2097151 | std::uint64_t{2097151} << 22;
+  const std::uint64_t none = up | std::uint64_t{524287} << 44;
+  const std::uint64_t half = up | std::uint64_t{2 * 524287} << 44;
   const auto rest = [](std::uint32_t scale, std::uint8_t trunk) {
     std::string s;
     for (const std::uint32_t byte : {scale & 255, scale >> 8, 255u, 128u, 0u, std::uint32_t{trunk}, 255u, 6u})
@@ -87,11 +87,13 @@ std::vector<Part> parts(bool exact) {
                       {"MNAM", 1, Bytes().text("Soil")},
                       {"ETYP", 64, types()},
                       {"ENAM", 1, Bytes().text("oaktrees/oakgrass")},
+                      {"EVOL", 16, Bytes().u32({0, 0, 1, 4}).u32({0, 1, 0, 6}).u32({1, 0, 0, 6})},
+                      {"EVNM", 4, Bytes().f32({0, 1, 0, 4, -1, 0, -1, 1, 2, 1, 0, 0, 0, 1, 1, 1})},
                       {"EHGT", 4, Bytes().f32({0, 0, 0, 0})},
                       {"EBOX", 32, Bytes().f32({-1, 0, -1, 5, 3, 9}).u32({0, 2})},
                       {"EBLK", 80, blocks(exact)}};
   if (exact) p.push_back({"EINX", 48, exact_instances()});
-  if (!exact) p.push_back({"EINS", 24, instances()});
+  if (!exact) p.push_back({.name = "EINS", .stride = 24, .bytes = instances(), .version = 2});
   p.push_back({"P001", 1, Bytes().text("a tree's file")});
   return p;
 }
@@ -121,7 +123,10 @@ Ecosystem ecosystem(bool exact) {
                 .scale_min = 0.5f,
                 .scale_max = 1,
                 .view_range = 40};
+  e.types[0].volumes = {BoundingSphere<float>{{0, 1, 0}, 4}};
+  e.types[0].envelopes = {FloatBox{{-1, 0, -1}, {1, 2, 1}}};
   e.types[1] = {.name = "grass", .uri = "", .hash = 9, .bounds = {{0, 0, 0}, {1, 1, 1}}, .instances = 1};
+  e.types[1].volumes = {FloatBox{{0, 0, 0}, {1, 1, 1}}};
   const std::string packed = "a tree's file";
   e.types[1].packed = std::vector<std::uint8_t>(packed.begin(), packed.end());
   const float step = exact ? 0 : 0.5f;
@@ -169,6 +174,10 @@ TEST_P(EcosystemSpecification, AFileWrittenByThePageLoads) {
   EXPECT_EQ(loaded->blocks.to_vector(), wanted.blocks.to_vector());
   EXPECT_EQ(loaded->materials, wanted.materials);
   EXPECT_EQ(loaded->types[0].uri, "trees/oak");
+  for (std::size_t t = 0; t < 2; ++t) {
+    EXPECT_EQ(loaded->types[t].volumes, wanted.types[t].volumes);
+    EXPECT_EQ(loaded->types[t].envelopes, wanted.types[t].envelopes);
+  }
   EXPECT_EQ(loaded->types[1].packed.to_vector(), wanted.types[1].packed.to_vector());
   const Instance i = instance_of(*loaded, loaded->blocks[0], 1);
   EXPECT_EQ(i.position, (Double3{102, 0, 203}));

@@ -22,23 +22,61 @@ Quaternion random_rotation(Random& random) {
 
 TEST(InstanceCodec, RotationsComeBackWithinTheBound) {
   Random random(1);
-  double worst = 0;
+  double worst = 0, worst_axis = 0;
   for (int i = 0; i < 200000; ++i) {
     const Quaternion q = random_rotation(random), back = unpack_rotation(pack_rotation(q));
+    EXPECT_TRUE(is_packed_rotation(pack_rotation(q)));
+    worst_axis = std::max(worst_axis, distance(rotate(q, {0, 1, 0}), rotate(back, {0, 1, 0})));
     double plus = 0, minus = 0;
     for (std::size_t k = 0; k < 4; ++k)
       plus += std::pow(q[k] + back[k], 2), minus += std::pow(q[k] - back[k], 2);
     worst = std::max(worst, 2 * std::sqrt(std::min(plus, minus)));
   }
   EXPECT_LT(worst, k_packed_rotation_error);
-  EXPECT_GT(worst, 0.4 * k_packed_rotation_error);  // the bound is no fantasy
+  EXPECT_GT(worst, 0.8 * k_packed_rotation_error);  // the bounds are no fantasies
+  EXPECT_LT(worst_axis, k_packed_axis_error);
+  EXPECT_GT(worst_axis, 0.8 * k_packed_axis_error);
 }
 
-TEST(InstanceCodec, QuarterTurnsAndNoTurnAreExact) {
+TEST(InstanceCodec, NoTurnHalfTurnsAndUpsideDownAreExact) {
   EXPECT_EQ(unpack_rotation(pack_rotation({0, 0, 0, 1})), (Quaternion{0, 0, 0, 1}));
   EXPECT_EQ(unpack_rotation(pack_rotation({0, -1, 0, 0})), (Quaternion{0, 1, 0, 0}));
-  const Quaternion q = unpack_rotation(pack_rotation({0, std::sqrt(0.5), 0, std::sqrt(0.5)}));
-  EXPECT_NEAR(q[1], q[3], 1e-12);
+  for (const Quaternion& q : {Quaternion{1, 0, 0, 0}, {0, 0, 1, 0}}) {
+    const Quaternion back = unpack_rotation(pack_rotation(q));
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(std::abs(back[k]), std::abs(q[k]), 1e-15);
+  }
+}
+
+TEST(InstanceCodec, NextToUpsideDownAndUprightRotationsComeBackAsWell) {
+  Random random(5);
+  for (int i = 0; i < 20000; ++i) {
+    // A half turn about a level axis, or a turn about y, and then a tilt of 1e-12 to 1e-3.
+    const double head = random.uniform(-3.2, 3.2), across = random.uniform(0, 7),
+                 tilt = std::pow(10, random.uniform(-12, -3));
+    const bool down = i % 2 == 0;
+    Quaternion q = down ? Quaternion{std::cos(head), 0, std::sin(head), tilt * std::sin(across)}
+                        : Quaternion{tilt * std::cos(across), std::sin(head), tilt, std::cos(head)};
+    double square = 0;
+    for (const double part : q) square += part * part;
+    for (double& part : q) part /= std::sqrt(square);
+    const Quaternion back = unpack_rotation(pack_rotation(q));
+    for (const Double3& v : {Double3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
+      EXPECT_LT(distance(rotate(q, v), rotate(back, v)), k_packed_rotation_error);
+  }
+}
+
+TEST(InstanceCodec, EveryCodeButTheOnesTooManyIsARotation) {
+  Random random(6);
+  const std::uint64_t axis = (std::uint64_t{1} << k_axis_bits) - 1, head = (1 << k_head_bits) - 1;
+  for (int i = 0; i < 20000; ++i) {
+    const std::uint64_t code =
+        random.below(axis) | random.below(axis) << k_axis_bits | random.below(head) << (2 * k_axis_bits);
+    ASSERT_TRUE(is_packed_rotation(code));
+    const Quaternion q = unpack_rotation(code);
+    EXPECT_NEAR(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], 1, 1e-14);
+  }
+  for (const std::uint64_t bad : {axis, axis << k_axis_bits, head << (2 * k_axis_bits)})
+    EXPECT_FALSE(is_packed_rotation(bad));
 }
 
 TEST(InstanceCodec, StepsArePowersOfTwoThatHoldTheExtent) {

@@ -1,4 +1,4 @@
-// Everything that reads a .tree, .stree or .eco, over any bytes: for the fuzzer and the replay of its corpus.
+// Everything that reads a .tree or .stree, over any bytes: for the fuzzer and the replay of its corpus.
 #pragma once
 
 #include "lib/formats/tree_file.h"

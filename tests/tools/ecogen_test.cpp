@@ -2,12 +2,16 @@
 #include "lib/formats/ecosystem_file.h"
 #include "lib/formats/import/image.h"
 #include "lib/formats/instance_codec.h"
+#include "lib/formats/spectrum_file.h"
 #include "lib/formats/tree_file.h"
+#include "lib/formats/tree_volumes.h"
 #include "tests/formats/tree_maker.h"
+#include "tests/tools/little_obj.h"
 #include "tests/tools/process.h"
 
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -246,6 +250,188 @@ TEST_F(Ecogen, WhatIsPackedNeedsNoOtherFile) {
   EXPECT_NE(read_text(file("r.json")).find("material 'gold'"), std::string::npos);  // nothing is made of it
 }
 
+// What a type's packed tree is.
+TreeFile packed_tree(const Ecosystem& eco, std::size_t type) {
+  auto tree = TreeFile::from_bytes(eco.types[type].packed.to_vector(), "packed");
+  EXPECT_TRUE(tree) << tree.error().what;
+  EXPECT_EQ(tree->verify(), std::vector<std::string>{});
+  return *tree;
+}
+
+// A real tree with everything that tools add to one; full detail reaches 9 m, or 10 without hysteresis.
+void write_rich_tree(const TemporaryFolder& folder) {
+  write_text(folder.file("rich.obj"), little_tree_obj(6, 9, 40));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"treeprep", "rich.obj", "-o", "rich.stree"},
+        {"bvfit", "rich.stree", "-o", "rich.stree", "--per", "whole,groups", "--sway", "4"},
+        {"lodbake", "rich.stree", "-o", "rich.stree", "--continuous", "--discrete", "0.5,0.2", "--near", "10",
+         "--far", "40"}}) {
+    std::vector<std::string> with_paths = command;
+    for (std::string& word : with_paths)
+      if (word.starts_with("rich")) word = folder.file(word);
+    const Outcome o = run_process(with_paths);
+    ASSERT_EQ(o.status, 0) << command[0] << ": " << o.err;
+  }
+}
+
+TEST_F(Ecogen, PackingLeavesOutLevelsThatNoFrameReaches) {
+  write_rich_tree(folder_);
+  page_["types"] =
+      Json::parse(R"([{"name": "rich", "tree": "rich.stree", "count": 5, "scale": {"min": 0.5, "max": 1}}])");
+  const auto has_levels = [&](const char* range) {
+    EXPECT_EQ(run({"--pack", "--view-range", range, "--report", file("r.json")}).status, 0);
+    const bool has = has_spectra(packed_tree(load(), 0).container());
+    EXPECT_EQ(read_text(file("r.json")).find("levels of detail") == std::string::npos, has);
+    return has;
+  };
+  EXPECT_TRUE(has_levels("0"));   // no limit
+  EXPECT_TRUE(has_levels("20"));  // at scale 1
+  EXPECT_FALSE(has_levels("4"));  // at most 8 m at half the size
+  const Ecosystem eco = load();
+  EXPECT_EQ(eco.types[0].view_range, 4);
+}
+
+TEST_F(Ecogen, PackingLeavesOutVolumesThatNothingIsTestedWith) {
+  write_rich_tree(folder_);
+  page_["types"] = Json::parse(R"([{"name": "rich", "tree": "rich.stree", "count": 5}])");
+  const auto whole = TreeFile::open(file("rich.stree"));
+  ASSERT_TRUE(whole);
+  const auto all = load_volumes(*whole);
+  ASSERT_TRUE(all);
+  ASSERT_EQ(run({"--pack"}).status, 0);
+  const auto still = load_volumes(packed_tree(load(), 0));
+  ASSERT_TRUE(still) << still.error().what;
+  EXPECT_EQ(still->sets.size(), all->sets.size() / 2);  // no envelopes
+  EXPECT_EQ(still->volumes.size(), still->sets.size());
+  EXPECT_EQ(still->chosen(still->sets[0]), all->chosen(all->sets[0]));
+  page_["types"][0]["motion"] = 2;
+  const Outcome o = run({"--pack"});
+  ASSERT_EQ(o.status, 0);
+  EXPECT_EQ(o.err.find("envelope"), std::string::npos);
+  const auto moving = load_volumes(packed_tree(load(), 0));
+  ASSERT_TRUE(moving);
+  EXPECT_EQ(moving->sets.size(), all->sets.size());
+}
+
+TEST_F(Ecogen, BoxesAreThoseOfTheTreesVolumesAndOfTheirMotion) {
+  const auto volume_of_boxes = [&] {
+    double sum = 0;
+    const Ecosystem eco = load();
+    for (const InstanceBlock& b : eco.blocks) {
+      const Float3 e = b.bounds.extent();
+      sum += double{e.x} * double{e.y} * double{e.z};
+    }
+    return sum;
+  };
+  write_rich_tree(folder_);
+  ASSERT_EQ(run_process({"treeprep", file("rich.obj"), "-o", file("none.stree")}).status, 0);
+  page_["hierarchy_depth"] = 6;
+  page_["types"] = Json::parse(
+      R"([{"name": "rich", "tree": "none.stree", "count": 200, "scale": 0.1, "tilt": {"pitch": 20, "roll": 20}}])");
+  ASSERT_EQ(run().status, 0);
+  const double boxes = volume_of_boxes();
+  page_["types"][0]["tree"] = "rich.stree";
+  ASSERT_EQ(run().status, 0);
+  const double volumes = volume_of_boxes();
+  EXPECT_LT(volumes, 0.9 * boxes);
+  page_["types"][0]["motion"] = 1;
+  ASSERT_EQ(run().status, 0);
+  EXPECT_GT(volume_of_boxes(), volumes);
+  page_["types"][0]["tree"] = "none.stree";
+  const Outcome o = run();
+  ASSERT_EQ(o.status, 0);
+  EXPECT_NE(o.err.find("has no envelope of its motion"), std::string::npos) << o.err;
+}
+
+TEST_F(Ecogen, PackingCopiesInTheTexturesThatAreShownAndNoOthers) {
+  std::string obj = little_tree_obj(6, 5, 4);
+  obj.replace(obj.find("none.mtl"), 8, "t.mtl");
+  write_text(file("t.obj"), obj);
+  write_text(file("t.mtl"), "newmtl bark\nmap_Kd bark.png\nnewmtl leaf\nmap_Kd leaf.png\n");
+  const Image image{.width = 2, .height = 1, .rgba = {255, 0, 0, 255, 0, 255, 0, 255}, .has_alpha = false};
+  for (const char* name : {"bark.png", "leaf.png"}) ASSERT_TRUE(write_image(file(name), image));
+  ASSERT_EQ(run_process({"treeprep", file("t.obj"), "-o", file("t.stree")}).status, 0);
+  page_["types"] = Json::parse(R"([{"name": "t", "tree": "t.stree", "count": 5, "trunk_material": "gold"}])");
+  ASSERT_EQ(run({"--pack", "--report", file("r.json"), "--depfile", file("d")}).status, 0);
+  const auto tree = packed_tree(load(), 0).load();
+  ASSERT_TRUE(tree);
+  ASSERT_EQ(tree->textures.size(), 1u);  // every trunk is of gold
+  EXPECT_TRUE(tree->textures[0].uri.empty());
+  const std::string png = read_text(file("leaf.png"));
+  EXPECT_EQ(tree->textures[0].bytes, (std::vector<std::uint8_t>{png.begin(), png.end()}));
+  EXPECT_NE(read_text(file("r.json")).find("bark.png"), std::string::npos);
+  EXPECT_NE(read_text(file("d")).find("leaf.png"), std::string::npos);
+  page_["types"][0]["leaf_material"] = "gold";
+  ASSERT_EQ(run({"--pack"}).status, 0);
+  EXPECT_TRUE(packed_tree(load(), 0).load()->textures.empty());
+}
+
+TEST_F(Ecogen, SpacedTypesKeepOffTheFeetThatTheyAreToAvoid) {
+  page_["types"] = Json::parse(
+      R"([{"name": "a", "tree": "a.stree", "count": 300, "scale": 0.01, "footprint": 0},
+          {"name": "b", "tree": "b.tree", "count": 60, "scale": {"min": 0.5, "max": 1.5}, "spacing": 1, "avoid": ["a"]}])");
+  const auto nearest = [&] {
+    const Ecosystem eco = load();
+    std::vector<Instance> all;
+    for (const InstanceBlock& b : eco.blocks)
+      for (std::size_t i = b.first; i < b.first + b.count; ++i) all.push_back(instance_of(eco, b, i));
+    double least = 1e9;
+    for (const Instance& b : all)
+      for (const Instance& a : all)
+        if (b.type == 1 && a.type == 0)
+          least =
+              std::min(least, std::hypot(a.position.x - b.position.x, a.position.z - b.position.z) / b.scale);
+    return least;
+  };
+  ASSERT_EQ(run().status, 0);
+  EXPECT_GE(nearest(), 1 - 1e-4);
+  page_["types"][1].erase("avoid");
+  ASSERT_EQ(run().status, 0);
+  EXPECT_LT(nearest(), 0.9);  // nobody asked for it
+  page_["types"][1]["avoid"] = {"aa"};
+  std::filesystem::remove(file("out.eco"));
+  EXPECT_NE(refusal().find("types[1].avoid[0]: there is no type called 'aa'"), std::string::npos);
+  page_["types"][1]["avoid"] = {"a"};
+  page_["types"][1].erase("spacing");
+  EXPECT_NE(refusal().find("types[1].avoid: 'b' has no spacing"), std::string::npos);
+}
+
+TEST_F(Ecogen, TreesLargerThanTheirCellsAreWarnedOfAndShowNoGrid) {
+  page_["types"][0]["count"] = 600, page_["types"][0]["scale"] = 1, page_["types"][0]["footprint"] = 30;
+  page_["types"].erase(1);
+  const Outcome o = run();
+  ASSERT_EQ(o.status, 0);
+  EXPECT_NE(o.err.find("types[0] (a): 600 of 600 are larger than their cell"), std::string::npos) << o.err;
+  const Ecosystem eco = load();
+  std::set<double> columns;
+  for (const InstanceBlock& b : eco.blocks)
+    for (std::size_t i = b.first; i < b.first + b.count; ++i)
+      columns.insert(std::round(1000 * instance_of(eco, b, i).position.x));
+  EXPECT_GT(columns.size(), 500u);  // 25 when all stand in the middle
+}
+
+TEST_F(Ecogen, OneThatFloatsByHandDoesNotLiftTheOthers) {
+  page_["types"][0]["instances"] = Json::parse(R"([{"x": 5, "y": 77, "z": 5}])");
+  ASSERT_EQ(run({"--report", file("r.json")}).status, 0);
+  for (const auto& error : Json::parse(read_text(file("r.json")))["errors"])
+    if (error["name"] == "foot off the ground") {
+      EXPECT_LE(error["max"].get<double>(), 1e-5);
+    }
+  const Ecosystem eco = load();
+  int floating = 0;
+  for (const InstanceBlock& b : eco.blocks)
+    for (std::size_t i = b.first; i < b.first + b.count; ++i)
+      floating += std::abs(instance_of(eco, b, i).position.y - 77) < 1e-3;
+  EXPECT_EQ(floating, 1);
+}
+
+TEST_F(Ecogen, PagesAndSchemasGoWhereTheyAreSentTo) {
+  const Outcome o = run_process({"ecogen", "--new", "-o", file("mine.json")});
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.out, "");
+  EXPECT_EQ(read_text(file("mine.json")), run_process({"ecogen", "--new"}).out);
+}
+
 TEST_F(Ecogen, InstancesGoOutAndComeBackAsCsv) {
   ASSERT_EQ(run({"--export", file("i.csv")}).status, 0);
   const std::string csv = read_text(file("i.csv"));
@@ -276,8 +462,15 @@ TEST_F(Ecogen, ExportsAMapFromAbove) {
   ASSERT_EQ(run({"--export", file("map.png")}).status, 0);
   const auto image = read_image(file("map.png"));
   ASSERT_TRUE(image);
-  EXPECT_EQ(image->width, 1024);
   EXPECT_EQ(image->height, 683);  // 60 x 40 m
+  EXPECT_GT(image->width, 1024 + 100);
+  // Its legend says something: there is ink on the white beside the map.
+  std::size_t ink = 0;
+  for (int y = 0; y < image->height; ++y)
+    for (int x = 1024; x < image->width; ++x)
+      ink += image->rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image->width) +
+                              static_cast<std::size_t>(x))] < 128;
+  EXPECT_GT(ink, 1000u);
   EXPECT_EQ(run({"--export", file("map.jpeg2")}).status, 2);
 }
 
@@ -320,7 +513,6 @@ TEST_F(Ecogen, WhatNoFrameShowsIsLeftOut) {
   for (const InstanceBlock& b : eco.blocks)
     for (std::size_t i = b.first; i < b.first + b.count; ++i)
       EXPECT_LT(instance_of(eco, b, i).position.x, 25);
-  EXPECT_EQ(run({"--view-range", "5"}).status, 2);  // from where?
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -50,9 +51,11 @@ Instance instance_of(const PlantedSource& p, const TypeSource& type, const Terra
   Instance i;
   const auto here = ground.at(p.x, p.z);
   i.position = {p.x, p.y.value_or(here ? here->height : 0), p.z};
+  i.on_ground = !p.y;
   const Quaternion tilt = tilt_of(p.pitch, p.roll);
   const bool upright = p.pitch == 0 && p.roll == 0;
-  i.rotation = with_head(upright && type.tilt_to_ground && here ? tilt_to(here->normal) : tilt, p.head);
+  i.along_normal = upright && type.tilt_to_ground && here;
+  i.rotation = with_head(i.along_normal ? tilt_to(here->normal) : tilt, p.head);
   i.scale = p.scale;
   i.trunk_material = p.trunk_material;
   i.leaf_material = p.leaf_material;
@@ -84,8 +87,6 @@ class Builder {
     if (options_.path) drop_frames(*population, ground);
     if (auto done = drop_unused(*population); !done) return std::unexpected(done.error());
     if (auto done = lay_out(*population, ground); !done) return in_file(done.error(), options_.document);
-    tell_tilts(*population, ground, context_);
-    tell_feet(built_.eco, ground, context_);
     return std::move(built_);
   }
 
@@ -118,6 +119,10 @@ class Builder {
       auto type = read_type(source, context_);
       if (!type) return std::unexpected(type.error());
       type->uri = source.tree.string();
+      if (const auto range = static_cast<float>(options_.view_range); range > 0)
+        type->view_range = type->view_range > 0 ? std::min(type->view_range, range) : range;
+      built_.farthest.push_back(type->view_range > 0 ? double{type->view_range}
+                                                     : std::numeric_limits<double>::infinity());
       built_.eco.types.push_back(std::move(*type));
     }
     stage.items(scene_.types.size(), "trees");
@@ -139,6 +144,7 @@ class Builder {
       p.rules.clusters = s.clusters;
       p.footprint = s.crown_footprint ? crown_radius(built_.eco.types[i].bounds) : s.footprint;
       p.spacing = s.spacing;
+      p.avoid = s.avoid;
       p.fewer = s.fewer;
       for (const PlantedSource& planted : s.planted) p.manual.push_back(instance_of(planted, s, ground));
       const std::pair<const std::optional<MapSource>*, const ValueMap**> maps[] = {
@@ -200,13 +206,21 @@ class Builder {
   }
 
   void tell_population(const Population& p) {
-    Table table{"types", {"type", "instances", "reach out of their cell", "did not fit"}, {}};
+    Table table{
+        "types", {"type", "asked for", "by hand", "planted", "larger than their cell", "did not fit"}, {}};
     std::uint64_t crowded = 0;
     for (std::size_t t = 0; t < plans_.size(); ++t) {
       const TypeCounts& c = p.types[t];
       crowded += c.crowded;
-      table.rows.push_back({scene_.types[t].name, std::to_string(c.placed + plans_[t].manual.size()),
-                            std::to_string(c.crowded), std::to_string(c.missing)});
+      if (c.crowded > 0)
+        context_.warn(
+            fmt::format("{}: {} of {} are larger than their cell, so neighbours may touch; lower "
+                        "scale, count or footprint, or keep them apart by spacing",
+                        plans_[t].name, c.crowded, c.placed));
+      table.rows.push_back({scene_.types[t].name, std::to_string(plans_[t].count),
+                            std::to_string(plans_[t].manual.size()),
+                            std::to_string(c.placed + plans_[t].manual.size()), std::to_string(c.crowded),
+                            std::to_string(c.missing)});
       if (c.missing > 0)
         context_.warn(fmt::format("{}: {} of {} did not fit at this spacing", plans_[t].name, c.missing,
                                   plans_[t].count));
@@ -222,34 +236,31 @@ class Builder {
 
   void drop_frames(Population& population, const TerrainGround& ground) {
     Stage stage = context_.stage("frames");
-    const std::uint64_t gone = drop_unseen(population.instances, built_.eco.types, area_of(scene_, ground),
-                                           *options_.path, options_.view_range);
-    if (gone > 0)
-      built_.left_out.push_back({fmt::format("{} instances", gone),
+    const Seen seen =
+        drop_unseen(population.instances, built_.eco.types, area_of(scene_, ground), *options_.path);
+    built_.farthest = seen.farthest;
+    if (seen.dropped > 0)
+      built_.left_out.push_back({fmt::format("{} instances", seen.dropped),
                                  "no frame of the camera's path shows them",
-                                 gone * (scene_.exact ? 48 : 24)});
-    stage.items(gone, "instances left out");
+                                 seen.dropped * (scene_.exact ? 48 : 24)});
+    stage.items(seen.dropped, "instances left out");
   }
 
   Result<void> drop_unused(Population& population) {
     Stage stage = context_.stage("leave out");
-    leave_out(population.instances, built_);
-    return resolve_files(options_, built_, context_);
+    return leave_out(population.instances, options_, built_, context_);
   }
 
   Result<void> lay_out(const Population& population, const TerrainGround& ground) {
     Stage stage = context_.stage("arrange");
     stage.items(population.instances.size(), "instances");
     const PlantedArea area = area_of(scene_, ground);
-    // By hand an instance may float: then its y is meant as it is.
-    bool floats = false;
-    for (const TypeSource& t : scene_.types)
-      for (const PlantedSource& p : t.planted) floats |= p.y.has_value();
     const ArrangeOptions options{.exact = scene_.exact,
                                  .depth = scene_.depth,
                                  .area = {area.x0, area.z0, area.x1, area.z1},
-                                 .ground = floats ? nullptr : &ground};
-    if (auto done = arrange(population.instances, options, built_.eco); !done) return done;
+                                 .ground = &ground};
+    const auto order = arrange(population.instances, options, built_.eco);
+    if (!order) return std::unexpected(order.error());
     Ecosystem& e = built_.eco;
     if (scene_.kd_tree) e.kd_tree = block_kd_tree(e);
     if (scene_.rtree) e.rtree = block_rtree(e);
@@ -257,6 +268,8 @@ class Builder {
     errors.push_back({"stored position", e.position_error, "m", e.position_error, {}, {}, "as placed"});
     errors.push_back({"stored rotation", e.rotation_error, "rad", e.rotation_error, {}, {}, "as placed"});
     errors.push_back({"stored scale", e.scale_error, "ratio", e.scale_error, {}, {}, "as placed"});
+    tell_tilts(population, ground, context_);
+    tell_ties(e, population.instances, *order, ground, context_);
     return {};
   }
 

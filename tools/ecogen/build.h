@@ -17,8 +17,8 @@ struct BuildOptions {
   std::filesystem::path folder;  // of the output: names in it are relative to this
   std::filesystem::path document;
   const CameraPath* path = nullptr;  // instances that no frame of it shows are left out
-  double view_range = 0;
-  bool pack = false;  // trees and textures go into the file
+  double view_range = 0;             // m: nothing is drawn farther away; 0: as the page says
+  bool pack = false;                 // trees and textures go into the file
 };
 
 // What was left out, for the report: "material 'bark'", why, and the bytes that this saved.
@@ -29,6 +29,7 @@ struct LeftOut {
 
 struct Built {
   Ecosystem eco;
+  std::vector<double> farthest;  // of every type: metres from the eye that it is shown at most
   std::vector<LeftOut> left_out;
 };
 

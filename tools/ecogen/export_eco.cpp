@@ -6,7 +6,7 @@
 #include "lib/formats/instance_codec.h"
 #include "lib/formats/tree_file.h"
 #include "tools/ecogen/instance_table.h"
-#include "tools/ecogen/map_picture.h"
+#include "tools/ecogen/map_legend.h"
 
 #include <algorithm>
 #include <map>
@@ -245,7 +245,7 @@ Result<void> export_ecosystem(const Ecosystem& eco, const fs::path& trees, const
   const std::string e = file.extension().string(), name = file.filename().string();
   if (e == ".csv") return context.write(file, instances_csv(eco));
   if (e == ".png") {
-    const auto png = encode_png(map_picture(eco));
+    const auto png = encode_png(map_with_legend(eco));
     if (!png) return std::unexpected(png.error());
     return context.write(file, {reinterpret_cast<const char*>(png->data()), png->size()});
   }

@@ -1,6 +1,6 @@
 #include "tools/ecogen/frames.h"
 
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/instance_bounds.h"
 #include "lib/runtime/block_culling.h"
 
 #include <algorithm>
@@ -18,36 +18,78 @@ std::size_t cell(double at, double low, double high) {
   return static_cast<std::size_t>(std::clamp((at - low) / (high - low) * k_cells, 0.0, k_cells - 1.0));
 }
 
+// The path as frames, and how far anything at distance d may lie from where a frame shows it, at any moment
+// between two: any moment is within half a step of one of them.
+class Frames {
+ public:
+  explicit Frames(const CameraPath& path) {
+    for (std::size_t f = 0; f < k_frames; ++f) {
+      views_.push_back(make_view(path.at(static_cast<double>(f) / (k_frames - 1)), k_aspect, k_near, k_far));
+      frusta_.push_back(frustum_of(views_.back()));
+      if (f > 0) take_step(views_[f - 1], views_[f]);
+    }
+  }
+
+  // How far from the eye some frame shows what is in the box, its farthest corner taken, no farther than
+  // `range` (0: any distance); 0 when no frame does.
+  double farthest(const DoubleBox& box, double range) const {
+    double farthest = 0;
+    for (std::size_t f = 0; f < views_.size(); ++f) {
+      const Double3& eye = views_[f].eye;
+      const Double3 far{std::max(std::abs(box.min.x - eye.x), std::abs(box.max.x - eye.x)),
+                        std::max(std::abs(box.min.y - eye.y), std::abs(box.max.y - eye.y)),
+                        std::max(std::abs(box.min.z - eye.z), std::abs(box.max.z - eye.z))};
+      const double reach = std::sqrt(dot(far, far));
+      const double margin = step_ + reach * turn_;
+      if (reach + margin <= farthest) continue;
+      if (range > 0 && distance_to(eye, box) > range + step_) continue;
+      const Double3 m{margin, margin, margin};
+      if (classify(frusta_[f], eye, {box.min - m, box.max + m}) != Visibility::outside)
+        farthest = reach + margin;
+    }
+    return range > 0 ? std::min(farthest, range) : farthest;
+  }
+
+ private:
+  void take_step(const View& a, const View& b) {
+    step_ = std::max(step_, distance(a.eye, b.eye) / 2);
+    const double back = distance(a.frame.back, b.frame.back), up = distance(a.frame.up, b.frame.up);
+    const double wider =
+        std::max(std::abs(a.tan_half_x - b.tan_half_x), std::abs(a.tan_half_y - b.tan_half_y));
+    turn_ = std::max(turn_, (back + up + wider) / 2);
+  }
+
+  std::vector<View> views_;
+  std::vector<Frustum> frusta_;
+  double step_ = 0, turn_ = 0;
+};
+
 }  // namespace
 
-std::uint64_t drop_unseen(std::vector<Instance>& instances, const std::vector<TreeType>& types,
-                          const PlantedArea& area, const CameraPath& path, double range) {
-  const auto cell_of = [&](const Instance& i) {
-    return cell(i.position.z, area.z0, area.z1) * k_cells + cell(i.position.x, area.x0, area.x1);
+Seen drop_unseen(std::vector<Instance>& instances, const std::vector<TreeType>& types,
+                 const PlantedArea& area, const CameraPath& path) {
+  const auto part_of = [&](const Instance& i) {
+    const std::size_t at =
+        cell(i.position.z, area.z0, area.z1) * k_cells + cell(i.position.x, area.x0, area.x1);
+    return at * types.size() + i.type;
   };
-  std::vector<DoubleBox> boxes(k_cells * k_cells);
-  for (const Instance& i : instances) boxes[cell_of(i)].grow(transformed(types[i.type].bounds, i));
-  std::vector<Camera> cameras;
-  double step = 0;
-  for (std::size_t f = 0; f < k_frames; ++f) {
-    cameras.push_back(path.at(static_cast<double>(f) / (k_frames - 1)));
-    if (f > 0) step = std::max(step, distance(cameras[f].eye, cameras[f - 1].eye));
-  }
-  std::vector<Frustum> frusta;
-  for (const Camera& c : cameras) frusta.push_back(frustum_of(make_view(c, k_aspect, k_near, k_far)));
-  std::vector<std::uint8_t> seen(boxes.size());
+  std::vector<DoubleBox> boxes(k_cells * k_cells * types.size());
+  for (const Instance& i : instances) boxes[part_of(i)].grow(instance_bounds(types[i.type], i));
+  const Frames frames(path);
+  std::vector<double> farthest(boxes.size());
   tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t b) {
-    if (boxes[b].empty()) return;
-    const Double3 margin{step, step, step};
-    const DoubleBox box{boxes[b].min - margin, boxes[b].max + margin};
-    for (std::size_t f = 0; f < k_frames && !seen[b]; ++f)
-      seen[b] = (range <= 0 || distance_to(cameras[f].eye, box) <= range) &&
-                classify(frusta[f], cameras[f].eye, box) != Visibility::outside;
+    if (!boxes[b].empty()) farthest[b] = frames.farthest(boxes[b], types[b % types.size()].view_range);
   });
-  const std::size_t before = instances.size();
-  std::erase_if(instances,
-                [&](const Instance& i) { return !boxes[cell_of(i)].empty() && !seen[cell_of(i)]; });
-  return before - instances.size();
+  Seen seen{.dropped = instances.size(), .farthest = std::vector<double>(types.size())};
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+    seen.farthest[b % types.size()] = std::max(seen.farthest[b % types.size()], farthest[b]);
+  // What has no box shows nothing, and is no one's to drop.
+  std::erase_if(instances, [&](const Instance& i) {
+    const std::size_t part = part_of(i);
+    return !boxes[part].empty() && farthest[part] == 0;
+  });
+  seen.dropped -= instances.size();
+  return seen;
 }
 
 }  // namespace copse::ecogen

@@ -10,10 +10,16 @@
 
 namespace copse::ecogen {
 
-// Drops instances that stand in parts of the ground (64 x 64) whose trees lie outside every frame, or farther
-// than `range` metres from every one (0: any distance). Conservative: frames are taken as wide as 2.4 : 1,
-// 1000 of them along the path, and boxes grow by the longest step between two. Answers how many went.
-std::uint64_t drop_unseen(std::vector<Instance>& instances, const std::vector<TreeType>& types,
-                          const PlantedArea& area, const CameraPath& path, double range);
+struct Seen {
+  std::uint64_t dropped = 0;  // instances
+  // Of every type: metres from the eye that a frame shows any of it at most; 0: none does.
+  std::vector<double> farthest;
+};
+
+// Drops instances that stand in parts of the ground (64 x 64) where no frame shows their type, because it
+// lies outside every one or beyond the type's view range. Conservative: frames are taken as wide as 2.4 : 1,
+// 1000 of them along the path, and boxes grow by what the camera may move, turn and widen between two.
+Seen drop_unseen(std::vector<Instance>& instances, const std::vector<TreeType>& types,
+                 const PlantedArea& area, const CameraPath& path);
 
 }  // namespace copse::ecogen

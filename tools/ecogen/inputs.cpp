@@ -4,6 +4,7 @@
 #include "lib/formats/import/image.h"
 #include "lib/formats/mapped_file.h"
 #include "lib/formats/tree_file.h"
+#include "lib/formats/tree_volumes.h"
 
 #include <cmath>
 
@@ -51,6 +52,24 @@ Result<std::unique_ptr<ValueMap>> values_of(const FloatImage& image, const MapSo
     map->values[i] = value;
   }
   return map;
+}
+
+// Those that bvfit proved to hold the whole tree. A tree far from its origin keeps to its box: moving them
+// there would round them.
+Result<void> take_volumes(const TreeFile& file, TreeType& type) {
+  if (!file.has("VSET") || !(file.header().origin == Double3{})) return {};
+  const auto all = load_volumes(file);
+  if (!all) return std::unexpected(all.error());
+  for (const VolumeSet& set : all->sets) {
+    if (set.part != VolumePart::whole) continue;
+    auto& volumes = set.motion == VolumeMotion::envelope ? type.envelopes : type.volumes;
+    for (std::size_t v = set.first; v < set.first + set.count; ++v) {
+      const VolumeRecord& r = all->volumes[v];
+      if ((r.flags & VolumeRecord::certified) && r.kind != VolumeKind::kdop)
+        volumes.push_back(all->volume(v));
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -103,6 +122,7 @@ Result<TreeType> read_type(const TypeSource& source, Context& context) {
   const TreeHeader& h = file->header();
   if (!h.bounds.empty())
     t.bounds = round_outward({h.origin + to_double(h.bounds.min), h.origin + to_double(h.bounds.max)});
+  if (auto done = take_volumes(*file, t); !done) return std::unexpected(done.error());
   return t;
 }
 

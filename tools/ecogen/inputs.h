@@ -28,7 +28,7 @@ class Inputs {
   std::map<std::filesystem::path, std::unique_ptr<TintMap>> tints_;
 };
 
-// The header alone of a tree: its box and the hash of its file.
+// Of a tree its box, the bounding volumes of all of it, and the hash of its file.
 Result<TreeType> read_type(const TypeSource& source, Context& context);
 
 }  // namespace copse::ecogen

@@ -1,9 +1,10 @@
 #include "tools/ecogen/leave_out.h"
 
 #include "lib/formats/mapped_file.h"
-#include "lib/formats/tree_file.h"
+#include "tools/ecogen/pack_tree.h"
 
 #include <algorithm>
+#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -44,6 +45,7 @@ void drop_types(std::vector<Instance>& instances, Built& built) {
     if (!used[t])
       built.left_out.push_back({fmt::format("type '{}'", built.eco.types[t].name), "it has no instances",
                                 size_of(built.eco.types[t].uri)});
+  keep(built.farthest, used);
   const auto number = keep(built.eco.types, used);
   for (Instance& i : instances) i.type = number[i.type];
 }
@@ -84,33 +86,43 @@ std::string relative_name(const fs::path& file, const fs::path& folder) {
   return fs::absolute(file, error).lexically_normal().lexically_proximate(from).generic_string();
 }
 
-// The tree's file without what the scene cannot show; sections that are unknown here are kept as they are.
-Result<std::vector<std::uint8_t>> packed_tree(const TreeType& type, Built& built) {
-  const auto file = TreeFile::open(type.uri);
-  if (!file) return std::unexpected(file.error());
-  ContainerWriter writer(file->container());
-  std::uint64_t saved = 0;
-  if (const SectionInfo* provenance = file->container().find("PROV")) {
-    saved += provenance->stored_size;
-    writer.remove("PROV");
+// What the instances ask of each type.
+std::vector<TreeUse> uses_of(const std::vector<Instance>& instances, const Built& built) {
+  std::vector<TreeUse> uses(built.eco.types.size());
+  std::vector<double> smallest(uses.size(), std::numeric_limits<double>::infinity());
+  for (const Instance& i : instances) {
+    TreeUse& use = uses[i.type];
+    use.own_trunk_material |= i.trunk_material == k_none;
+    use.own_leaf_material |= i.leaf_material == k_none;
+    (i.motion == 0 ? use.stands : use.moves) = true;
+    smallest[i.type] = std::min(smallest[i.type], i.scale);
   }
-  if (saved > 0)
-    built.left_out.push_back({fmt::format("provenance of {}", type.uri), "no frame shows it", saved});
-  return writer.finish();
+  // A tree of half the size looks at 10 m as the tree itself does at 20 m.
+  for (std::size_t t = 0; t < uses.size(); ++t) uses[t].farthest = built.farthest[t] / smallest[t];
+  return uses;
 }
 
-}  // namespace
-
-void leave_out(std::vector<Instance>& instances, Built& built) {
-  drop_types(instances, built);
-  drop_materials(instances, built);
-  drop_textures(built);
+// Those of a type that bound no instance; what sways out of its box would vanish while it is seen (E26).
+void drop_volumes(const std::vector<TreeUse>& uses, Built& built, Context& context) {
+  for (std::size_t t = 0; t < uses.size(); ++t) {
+    TreeType& type = built.eco.types[t];
+    if (uses[t].moves && type.envelopes.empty())
+      context.warn(
+          fmt::format("type '{}' moves, but '{}' has no envelope of its motion, so its boxes are those "
+                      "of trees at rest; bvfit --sway makes one",
+                      type.name, type.uri));
+    if (!uses[t].moves) type.envelopes.clear();
+    if (!uses[t].stands && !type.envelopes.empty()) type.volumes.clear();
+  }
 }
 
-Result<void> resolve_files(const BuildOptions& options, Built& built, Context& context) {
-  for (TreeType& type : built.eco.types) {
+// Trees and textures by name, relative to the output's folder, or packed.
+Result<void> resolve_files(const std::vector<TreeUse>& uses, const BuildOptions& options, Built& built,
+                           Context& context) {
+  for (std::size_t t = 0; t < uses.size(); ++t) {
+    TreeType& type = built.eco.types[t];
     if (options.pack) {
-      auto bytes = packed_tree(type, built);
+      auto bytes = pack_tree(type.uri, uses[t], built.left_out, context);
       if (!bytes) return std::unexpected(bytes.error());
       type.packed = std::move(*bytes);
       type.uri.clear();
@@ -131,6 +143,18 @@ Result<void> resolve_files(const BuildOptions& options, Built& built, Context& c
     }
   }
   return {};
+}
+
+}  // namespace
+
+Result<void> leave_out(std::vector<Instance>& instances, const BuildOptions& options, Built& built,
+                       Context& context) {
+  drop_types(instances, built);
+  drop_materials(instances, built);
+  drop_textures(built);
+  const std::vector<TreeUse> uses = uses_of(instances, built);
+  drop_volumes(uses, built, context);
+  return resolve_files(uses, options, built, context);
 }
 
 }  // namespace copse::ecogen

@@ -1,5 +1,5 @@
 // What a scene does not show is not written: types without instances, materials and textures that nothing
-// uses.
+// uses, volumes that bound nothing; with --pack, of trees what no frame shows (pack_tree.h).
 #pragma once
 
 #include "tools/ecogen/build.h"
@@ -8,11 +8,9 @@
 
 namespace copse::ecogen {
 
-// Drops them from `built.eco` and renumbers what remains, in the instances too; notes what went.
-void leave_out(std::vector<Instance>& instances, Built& built);
-
-// Trees and textures by name, relative to the output's folder, or packed. A packed tree has no provenance,
-// and no materials when every instance brings its own.
-Result<void> resolve_files(const BuildOptions& options, Built& built, Context& context);
+// Drops them from `built.eco` and renumbers what remains, in the instances too; notes what went. Trees and
+// textures are then named relative to the output's folder, or packed.
+Result<void> leave_out(std::vector<Instance>& instances, const BuildOptions& options, Built& built,
+                       Context& context);
 
 }  // namespace copse::ecogen

@@ -12,15 +12,6 @@ namespace {
 
 constexpr int k_side = 1024;
 
-// Eight colours that are told apart on green, and by most colour-blind eyes (after Okabe and Ito).
-constexpr std::array<Double3, 8> k_colours{{{0.05, 0.35, 0.15},
-                                            {0.90, 0.62, 0.0},
-                                            {0.34, 0.71, 0.91},
-                                            {0.80, 0.40, 0.0},
-                                            {0.94, 0.89, 0.26},
-                                            {0.80, 0.47, 0.65},
-                                            {0.0, 0.45, 0.70},
-                                            {0.45, 0.62, 0.28}}};
 const Double3 k_light{-0.5, 0.7, -0.5};
 
 class Painter {
@@ -102,7 +93,7 @@ class Painter {
     for (const Crown& c : crowns) {
       const double r = std::max(c.radius, 0.45);
       if (r > 2) disc(c.x + 0.3 * r, c.y + 0.3 * r, r, {0.05, 0.08, 0.05}, 0.35);
-      disc(c.x, c.y, r, k_colours[c.type % k_colours.size()], std::min(1.0, 0.5 + 0.25 * r));
+      disc(c.x, c.y, r, type_colour(c.type), std::min(1.0, 0.5 + 0.25 * r));
     }
   }
 
@@ -113,6 +104,19 @@ class Painter {
 };
 
 }  // namespace
+
+Double3 type_colour(std::size_t type) {
+  // Told apart on green, and by most colour-blind eyes (after Okabe and Ito); then again, darker.
+  static constexpr std::array<Double3, 8> k_colours{{{0.05, 0.35, 0.15},
+                                                     {0.90, 0.62, 0.0},
+                                                     {0.34, 0.71, 0.91},
+                                                     {0.80, 0.40, 0.0},
+                                                     {0.94, 0.89, 0.26},
+                                                     {0.80, 0.47, 0.65},
+                                                     {0.0, 0.45, 0.70},
+                                                     {0.45, 0.62, 0.28}}};
+  return k_colours[type % k_colours.size()] * (1 - 0.3 * static_cast<double>(type / k_colours.size() % 3));
+}
 
 Image map_picture(const Ecosystem& eco) {
   return Painter(eco).paint();

@@ -45,23 +45,33 @@ void tell_tilts(const Population& population, const TerrainGround& ground, Conte
         record("tilt by the thesis' two angles", "degrees", "terrain normal", std::move(values)));
 }
 
-void tell_feet(const Ecosystem& eco, const TerrainGround& ground, Context& context) {
-  std::vector<double> values(eco.instance_count());
+void tell_ties(const Ecosystem& eco, const std::vector<Instance>& instances,
+               const std::vector<std::uint32_t>& order, const TerrainGround& ground, Context& context) {
+  constexpr double k_free = -1;
+  std::vector<double> feet(order.size(), k_free), axes(order.size(), k_free);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, eco.blocks.size(), 16), [&](const auto& range) {
     for (std::size_t b = range.begin(); b < range.end(); ++b) {
       const InstanceBlock& block = eco.blocks[b];
       const Float3 e = eco.types[block.type].bounds.extent();
       const double size = std::max({double{e.x}, double{e.y}, double{e.z}});
       for (std::size_t i = block.first; i < block.first + block.count; ++i) {
+        const Instance& meant = instances[order[i]];
+        if (!meant.on_ground && !meant.along_normal) continue;
         const Instance s = instance_of(eco, block, i);
         const auto here = ground.at(s.position.x, s.position.z);
-        if (here) values[i] = std::abs(s.position.y - here->height) / (s.scale * (size > 0 ? size : 1));
+        if (!here) continue;
+        if (meant.on_ground)
+          feet[i] = std::abs(s.position.y - here->height) / (s.scale * (size > 0 ? size : 1));
+        if (meant.along_normal) axes[i] = distance(rotate(s.rotation, {0, 1, 0}), here->normal);
       }
     }
   });
-  if (!values.empty())
-    context.report().errors.push_back(
-        record("foot off the ground", "of the tree's size", "terrain triangle", std::move(values)));
+  const auto tell = [&](const char* name, const char* unit, const char* reference, std::vector<double> all) {
+    std::erase(all, k_free);
+    if (!all.empty()) context.report().errors.push_back(record(name, unit, reference, std::move(all)));
+  };
+  tell("foot off the ground", "of the tree's size", "terrain triangle", std::move(feet));
+  tell("axis off the terrain's normal", "rad", "normal of the terrain triangle", std::move(axes));
 }
 
 }  // namespace copse::ecogen

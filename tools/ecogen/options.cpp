@@ -24,11 +24,12 @@ ToolInfo info() {
 
 void add_options(CLI::App& app, Options& o) {
   app.add_option("INPUT", o.input, "the page: JSON, see --new and --schema")->type_name("FILE");
-  app.add_option("-o,--output", o.output, "the ecosystem, NAME.eco")->type_name("FILE");
+  app.add_option("-o,--output", o.output, "the ecosystem, NAME.eco (of --new and --schema: the page)")
+      ->type_name("FILE");
   CLI::Option_group* page = app.add_option_group("The page");
-  page->add_flag("--new", o.print_template, "print a page to begin with, and exit");
+  page->add_flag("--new", o.print_template, "print a page to begin with (or write it, with -o), and exit");
   page->add_flag("--schema", o.print_schema,
-                 "print the JSON Schema that pages are checked against, and exit");
+                 "print (or write) the JSON Schema that pages are checked against, and exit");
   page->add_option("--edit", o.edits, "set a value of the page, such as types[0].count=500; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
@@ -42,14 +43,13 @@ void add_options(CLI::App& app, Options& o) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   CLI::Option_group* frames = app.add_option_group("Leaving out what no frame shows");
-  CLI::Option* path = frames
-                          ->add_option("--camera-path", o.camera_path,
-                                       "keys of a camera's path, as treeplay --path takes them")
-                          ->type_name("FILE.json");
-  frames->add_option("--view-range", o.view_range, "metres; nothing farther from the path is needed")
+  frames->add_option("--camera-path", o.camera_path, "keys of a camera's path, as treeplay --path takes them")
+      ->type_name("FILE.json");
+  frames
+      ->add_option("--view-range", o.view_range,
+                   "metres; nothing is drawn farther away, whatever view_range its type has")
       ->check(CLI::Range(0.0, 1e9))
-      ->type_name("M")
-      ->needs(path);
+      ->type_name("M");
   CLI::Option_group* file = app.add_option_group("The file");
   file->add_flag("--pack", o.pack, "put trees and textures into it, instead of their names");
   file->add_flag("--compress", o.compress, "compress its sections (zstd): smaller, but not used in place");

@@ -7,6 +7,7 @@
 #include "tools/ecogen/document.h"
 #include "tools/ecogen/export_eco.h"
 #include "tools/ecogen/instance_table.h"
+#include "tools/ecogen/map_legend.h"
 #include "tools/ecogen/scene.h"
 #include "tools/ecogen/texts.h"
 #include "tools/treeplay/path_file.h"
@@ -48,8 +49,22 @@ std::string provenance(const Options& options, const Scene& scene, const std::st
 
 void tell_left_out(const Built& built, Context& context) {
   Table table{"left out", {"what", "why", "bytes"}, {}};
-  for (const LeftOut& l : built.left_out) table.rows.push_back({l.what, l.why, std::to_string(l.bytes)});
+  std::uint64_t bytes = 0;
+  for (const LeftOut& l : built.left_out) {
+    table.rows.push_back({l.what, l.why, std::to_string(l.bytes)});
+    bytes += l.bytes;
+  }
+  if (table.rows.size() > 1) table.rows.push_back({"in all", "", std::to_string(bytes)});
   if (!table.rows.empty()) context.report().tables.push_back(std::move(table));
+}
+
+Result<void> draw_map(const Ecosystem& eco, Context& context) {
+  if (context.options().html.empty()) return {};
+  Stage stage = context.stage("map");
+  auto picture = map_for_page(eco);
+  if (!picture) return std::unexpected(picture.error());
+  context.report().pictures.push_back(std::move(*picture));
+  return {};
 }
 
 Result<void> read_instances(const Options& options, Scene& scene, Context& context) {
@@ -94,6 +109,7 @@ Result<void> make(const Options& options, Context& context) {
                      context);
   if (!built) return std::unexpected(built.error());
   tell_left_out(*built, context);
+  if (auto drawn = draw_map(built->eco, context); !drawn) return drawn;
   const auto page = hash_file(options.input);
   if (!page) return std::unexpected(page.error());
   built->eco.provenance = provenance(options, *scene, page->hash);
@@ -110,8 +126,9 @@ Result<void> make(const Options& options, Context& context) {
 }  // namespace
 
 Result<void> run(const Options& options, Context& context) {
-  if (options.print_schema) return context.write("-", k_schema);
-  if (options.print_template) return context.write("-", k_template);
+  if (options.print_schema || options.print_template)
+    return context.write(options.output.empty() ? "-" : options.output,
+                         options.print_schema ? k_schema : k_template);
   if (options.input.empty())
     return fail(Fault::usage, "", "no page is named", "name a JSON file; --new prints one to begin with");
   return make(options, context);

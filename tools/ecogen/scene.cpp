@@ -37,6 +37,7 @@ class Reader {
     if (root_.contains("terrain")) terrain(root_["terrain"], s);
     for (std::size_t i = 0; i < root_["types"].size(); ++i) s.types.push_back(type(root_["types"][i], i));
     check_names(s);
+    for (std::size_t i = 0; i < s.types.size(); ++i) avoid(root_["types"][i], i, s);
     if (root_.contains("mixes"))
       for (std::size_t i = 0; i < root_["mixes"].size(); ++i) s.mixes.push_back(mix(root_["mixes"][i], i, s));
     return s;
@@ -255,6 +256,27 @@ class Reader {
                     "give each its own name");
   }
 
+  static std::size_t type_called(const std::string& name, const std::string& path, const Scene& s) {
+    const auto at =
+        std::find_if(s.types.begin(), s.types.end(), [&](const TypeSource& t) { return t.name == name; });
+    if (at != s.types.end()) return static_cast<std::size_t>(at - s.types.begin());
+    std::vector<std::string> known;
+    for (const TypeSource& t : s.types) known.push_back(t.name);
+    const std::string nearest = nearest_name(name, known);
+    refuse_at(path, fmt::format("there is no type called '{}'", name),
+              nearest.empty() ? "add it to types" : fmt::format("did you mean '{}'?", nearest));
+  }
+
+  static void avoid(const Json& j, std::size_t index, Scene& s) {
+    if (!j.contains("avoid")) return;
+    const std::string path = fmt::format("types[{}].avoid", index);
+    TypeSource& t = s.types[index];
+    if (!(t.spacing > 0))
+      refuse_at(path, fmt::format("'{}' has no spacing", t.name), "say by spacing how far it keeps off them");
+    for (std::size_t k = 0; k < j["avoid"].size(); ++k)
+      t.avoid.push_back(type_called(j["avoid"][k].get<std::string>(), fmt::format("{}[{}]", path, k), s));
+  }
+
   MixSource mix(const Json& j, std::size_t index, const Scene& s) const {
     MixSource m;
     m.count = j["count"].get<std::uint64_t>();
@@ -262,20 +284,12 @@ class Reader {
     for (std::size_t i = 0; i < j["parts"].size(); ++i) {
       const Json& part = j["parts"][i];
       const auto name = part["type"].get<std::string>();
-      const auto at =
-          std::find_if(s.types.begin(), s.types.end(), [&](const TypeSource& t) { return t.name == name; });
       const std::string path = fmt::format("mixes[{}].parts[{}].type", index, i);
-      if (at == s.types.end()) {
-        std::vector<std::string> known;
-        for (const TypeSource& t : s.types) known.push_back(t.name);
-        const std::string nearest = nearest_name(name, known);
-        refuse_at(path, fmt::format("there is no type called '{}'", name),
-                  nearest.empty() ? "add it to types" : fmt::format("did you mean '{}'?", nearest));
-      }
-      if (at->count > 0 || at->density)
+      const std::size_t at = type_called(name, path, s);
+      if (s.types[at].count > 0 || s.types[at].density)
         refuse_at(path, fmt::format("'{}' has a count or a density of its own", name),
                   "leave both to the mix");
-      m.parts.push_back({static_cast<std::size_t>(at - s.types.begin()), map(part["share"])});
+      m.parts.push_back({at, map(part["share"])});
       for (std::size_t k = 0; k + 1 < m.parts.size(); ++k)
         if (m.parts[k].type == m.parts.back().type)
           refuse_at(path, fmt::format("'{}' is in this mix twice", name), "name it once");

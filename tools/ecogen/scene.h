@@ -44,6 +44,7 @@ struct TypeSource {
   std::uint32_t trunk_material = k_none, leaf_material = k_none, motion = 0;
   Clusters clusters;
   double footprint = 0, spacing = 0, view_range = 0;
+  std::vector<std::size_t> avoid;  // types
   bool crown_footprint = true;
 };
 

@@ -4,6 +4,7 @@
 #include "lib/analysis/measure/raster.h"
 #include "lib/analysis/measure/view_sphere.h"
 #include "lib/formats/import/image.h"
+#include "tools/picture/base64.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,18 +23,6 @@ std::vector<Double3> six_sides() {
     if (!opposite) sides.push_back(d);
   }
   return sides;
-}
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  static constexpr char k_digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += i + k <= bytes.size() ? k_digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
 }
 
 std::uint8_t to_srgb(float linear) {

@@ -1,6 +1,7 @@
 #include "tools/picture/mesh_picture.h"
 
 #include "lib/formats/import/image.h"
+#include "tools/picture/base64.h"
 
 #include <algorithm>
 #include <vector>
@@ -11,20 +12,6 @@ namespace copse {
 namespace {
 
 constexpr int k_width = k_picture_width, k_height = k_picture_height, k_supersampling = 2;
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  static const char* k_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t v = bytes[i] << 16;
-    if (n > 1) v |= bytes[i + 1] << 8;
-    if (n > 2) v |= bytes[i + 2];
-    for (std::size_t c = 0; c < 4; ++c) out += c <= n ? k_digits[(v >> (18 - 6 * c)) & 63] : '=';
-  }
-  return out;
-}
 
 struct Shade {
   double r, g, b;

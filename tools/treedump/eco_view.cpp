@@ -5,6 +5,7 @@
 #include "tools/treedump/dump.h"
 #include "tools/treedump/json.h"
 #include "tools/treedump/text.h"
+#include "tools/treedump/views.h"
 
 #include <algorithm>
 
@@ -42,15 +43,6 @@ std::string types_text(const Ecosystem& e) {
   return out;
 }
 
-void add_box(JsonText& json, const char* name, const FloatBox& b) {
-  json.key(name);
-  if (b.empty()) return json.null();
-  json.open_object(JsonText::in_line);
-  json.member("min", b.min);
-  json.member("max", b.max);
-  json.close();
-}
-
 void add_terrain(JsonText& json, const Ecosystem& e) {
   const Terrain& t = e.terrain;
   json.key("terrain");
@@ -79,7 +71,9 @@ void add_types(JsonText& json, const Ecosystem& e) {
     json.member("scale_min", t.scale_min);
     json.member("scale_max", t.scale_max);
     json.member("view_range", t.view_range);
-    add_box(json, "bounds", t.bounds);
+    json.member("bounds", t.bounds);
+    json.member("volumes", std::uint64_t{t.volumes.size()});
+    json.member("envelopes", std::uint64_t{t.envelopes.size()});
     json.close();
   }
   json.close();
@@ -140,12 +134,9 @@ Result<std::string> ecosystem_text(const std::filesystem::path& path) {
   out += fmt::format("  {:<13}{}, {}\n", "materials", count_text(e.materials.size(), "material"),
                      count_text(e.textures.size(), "texture"));
   out += types_text(e);
-  out += fmt::format("\n  {:<7}  {:<34}  {:<6}  {:>11}  {:>9}  {:>7}\n", "section", "what", "stored",
-                     "elements", "size", "share");
-  for (const SectionInfo& s : c.sections())
-    out += fmt::format("  {:<7}  {:<34}  {:<6}  {:>11}  {:>9}  {:>7}\n", s.name, describe_section(s.name),
-                       encoding_name(s.encoding), s.stride > 1 ? count_text(s.decoded_size / s.stride) : "",
-                       bytes_text(s.stored_size), share_text(s.stored_size, c.size()));
+  std::vector<SectionState> sections;
+  for (const SectionInfo& info : c.sections()) sections.push_back({.info = info, .damage = {}});
+  out += sections_text(sections, c.size());
   for (char& letter : out)
     if ((static_cast<unsigned char>(letter) < 0x20 && letter != '\n') || letter == 0x7f) letter = '?';
   return out;
@@ -162,7 +153,7 @@ Result<std::string> ecosystem_json(const std::filesystem::path& path, bool array
   json.member("bytes", opened->file.container().size());
   json.member("kind", "eco");
   json.member("origin", e.origin);
-  add_box(json, "bounds", e.bounds);
+  json.member("bounds", e.bounds);
   json.member("seed", e.seed);
   json.member("instance_count", std::uint64_t{e.instance_count()});
   json.member("instance_bytes", std::uint64_t{e.exact.empty() ? 24u : 48u});

@@ -40,6 +40,11 @@ class JsonText {
   void value(const Vec3<T>& v) {
     open_list(in_line), value(v.x), value(v.y), value(v.z), close();
   }
+  // An empty box is null.
+  void value(const FloatBox& box) {
+    if (box.empty()) return null();
+    open_object(in_line), member("min", box.min), member("max", box.max), close();
+  }
   template <std::size_t N>
   void value(const std::array<std::uint32_t, N>& v) {
     open_list(in_line);

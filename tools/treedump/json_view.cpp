@@ -22,16 +22,8 @@ void add_header(JsonText& json, const TreeFile& file) {
   json.open_object();
   json.member("kind", h.kind == TreeKind::sensitive ? "stree" : "tree");
   json.member("origin", h.origin);
-  const auto box = [&](const char* name, const FloatBox& b) {
-    json.key(name);
-    if (b.empty()) return json.null();
-    json.open_object(JsonText::in_line);
-    json.member("min", b.min);
-    json.member("max", b.max);
-    json.close();
-  };
-  box("bounds", h.bounds);
-  box("trunk_bounds", h.trunk_bounds);
+  json.member("bounds", h.bounds);
+  json.member("trunk_bounds", h.trunk_bounds);
   json.member("area_density_centre", h.area_density_centre);
   json.member("mean_trunk_area", h.mean_trunk_area);
   json.member("mean_leaf_area", h.mean_leaf_area);

@@ -175,22 +175,6 @@ std::string printable(std::string text) {
   return text;
 }
 
-void add_sections(std::string& out, const Dump& dump) {
-  std::size_t widest = 4;
-  for (const SectionState& s : dump.sections) widest = std::max(widest, describe_section(s.info.name).size());
-  out += fmt::format("\n  {:<7}  {:<{}}  {:<6}  {:>11}  {:>9}  {:>9}  {:>7}\n", "section", "what", widest,
-                     "stored", "elements", "size", "decoded", "share");
-  for (const SectionState& s : dump.sections) {
-    const SectionInfo& i = s.info;
-    const std::uint64_t elements = i.stride > 1 ? i.decoded_size / i.stride : 0;
-    out += fmt::format("  {:<7}  {:<{}}  {:<6}  {:>11}  {:>9}  {:>9}  {:>7}{}\n", i.name,
-                       describe_section(i.name), widest, encoding_name(i.encoding),
-                       elements == 0 ? "" : count_text(elements), bytes_text(i.stored_size),
-                       i.encoding == Encoding::raw ? "" : bytes_text(i.decoded_size),
-                       share_text(i.stored_size, dump.container.size()), s.damage.empty() ? "" : "  DAMAGED");
-  }
-}
-
 void add_omissions(std::string& out, const Dump& dump) {
   if (!dump.file || dump.file->omissions().empty()) return;
   std::uint64_t saved = 0;
@@ -204,6 +188,24 @@ void add_omissions(std::string& out, const Dump& dump) {
 }
 
 }  // namespace
+
+std::string sections_text(std::span<const SectionState> sections, std::uint64_t file_size) {
+  std::string out;
+  std::size_t widest = 4;
+  for (const SectionState& s : sections) widest = std::max(widest, describe_section(s.info.name).size());
+  out += fmt::format("\n  {:<7}  {:<{}}  {:<6}  {:>11}  {:>9}  {:>9}  {:>7}\n", "section", "what", widest,
+                     "stored", "elements", "size", "decoded", "share");
+  for (const SectionState& s : sections) {
+    const SectionInfo& i = s.info;
+    const std::uint64_t elements = i.stride > 1 ? i.decoded_size / i.stride : 0;
+    out += fmt::format("  {:<7}  {:<{}}  {:<6}  {:>11}  {:>9}  {:>9}  {:>7}{}\n", i.name,
+                       describe_section(i.name), widest, encoding_name(i.encoding),
+                       elements == 0 ? "" : count_text(elements), bytes_text(i.stored_size),
+                       i.encoding == Encoding::raw ? "" : bytes_text(i.decoded_size),
+                       share_text(i.stored_size, file_size), s.damage.empty() ? "" : "  DAMAGED");
+  }
+  return out;
+}
 
 std::string summary_text(const Dump& dump) {
   std::string out =
@@ -224,7 +226,7 @@ std::string summary_text(const Dump& dump) {
   } else {
     out += "  header and table do not fit together; the sections are:\n";
   }
-  add_sections(out, dump);
+  out += sections_text(dump.sections, dump.container.size());
   add_omissions(out, dump);
   return printable(out);
 }

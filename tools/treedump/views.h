@@ -6,6 +6,7 @@
 #include "tools/treedump/dump.h"
 #include "tools/treedump/options.h"
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ std::string summary_text(const Dump& dump);
 
 // For a program: schema copse.dump/1, see docs/tools.md.
 std::string json_text(const Dump& dump, bool arrays);
+
+// The sections with their sizes and shares, for a person.
+std::string sections_text(std::span<const SectionState> sections, std::uint64_t file_size);
 
 // The sections as a table, for the report page.
 Table sections_table(const Dump& dump);

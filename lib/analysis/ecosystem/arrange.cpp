@@ -1,6 +1,8 @@
 #include "lib/analysis/ecosystem/arrange.h"
 
 #include "lib/analysis/ecosystem/hilbert_curve.h"
+#include "lib/analysis/ecosystem/tilt.h"
+#include "lib/formats/instance_bounds.h"
 #include "lib/formats/instance_codec.h"
 
 #include <algorithm>
@@ -128,8 +130,9 @@ double angle_between(const Quaternion& a, const Quaternion& b) {
   return 2 * std::sqrt(std::min(plus, minus));  // twice the chord: the angle, to third order
 }
 
-Errors errors_of(const Instance& meant, const Instance& stored) {
-  return {distance(meant.position, stored.position), angle_between(meant.rotation, stored.rotation),
+// `put` is `meant` with the tilt of the ground under where it is stored: there, not where it was meant.
+Errors errors_of(const Instance& meant, const Instance& put, const Instance& stored) {
+  return {distance(meant.position, stored.position), angle_between(put.rotation, stored.rotation),
           std::abs(stored.scale / meant.scale - 1)};
 }
 
@@ -146,8 +149,8 @@ Double3 stored_position(const Instance& i, const InstanceBlock& block, bool exac
   return unpack_position(pack_position(i.position, block), block);
 }
 
-// What is to be stored: x and z as they are meant, y on the ground under where they are after rounding. The
-// block's frame then fits these feet.
+// What is to be stored: x and z as they are meant, y and tilt as the ground is under where they are after
+// rounding. The block's frame then fits these feet.
 std::vector<Instance> planted(const std::vector<Instance>& meant, const ArrangeOptions& o,
                               InstanceBlock& block) {
   DoubleBox feet;
@@ -158,7 +161,11 @@ std::vector<Instance> planted(const std::vector<Instance>& meant, const ArrangeO
   DoubleBox grounded;
   for (Instance& i : out) {
     const Double3 at = stored_position(i, block, o.exact);
-    if (const auto here = o.ground->at(at.x, at.z)) i.position.y = here->height;
+    if (i.on_ground || i.along_normal) {
+      const auto here = o.ground->at(at.x, at.z);
+      if (here && i.on_ground) i.position.y = here->height;
+      if (here && i.along_normal) i.rotation = leaned(i.rotation, here->normal);
+    }
     grounded.grow(i.position);
   }
   frame(block, grounded, o.exact);  // x and z are those of before, so the ground under them is, too
@@ -178,8 +185,8 @@ void pack_block(const std::vector<Instance>& instances, const std::vector<Key>& 
     if (!o.exact) packed[block.first + i] = pack(feet[i], block, type);
     const Instance stored =
         o.exact ? unpack(exact[block.first + i], block) : unpack(packed[block.first + i], block, type);
-    errors.take(errors_of(meant[i], stored));
-    bounds.grow(transformed(type.bounds, stored));
+    errors.take(errors_of(meant[i], feet[i], stored));
+    bounds.grow(instance_bounds(type, stored));
   }
   if (bounds.empty()) return;
   // Rounding of this sum and of a reader's: a few units in the last place.
@@ -247,9 +254,10 @@ std::uint32_t usual_depth(std::size_t instances) {
   return depth;
 }
 
-Result<void> arrange(const std::vector<Instance>& instances, const ArrangeOptions& options, Ecosystem& eco) {
+Result<std::vector<std::uint32_t>> arrange(const std::vector<Instance>& instances,
+                                           const ArrangeOptions& options, Ecosystem& eco) {
   if (!options.exact)
-    if (auto fits = check_indices(instances, eco); !fits) return fits;
+    if (auto fits = check_indices(instances, eco); !fits) return std::unexpected(fits.error());
   count_types(instances, eco);
   eco.area = options.area;
   eco.depth = options.depth == k_none ? usual_depth(instances.size()) : options.depth;
@@ -272,7 +280,9 @@ Result<void> arrange(const std::vector<Instance>& instances, const ArrangeOption
   eco.blocks = std::move(blocks);
   eco.packed = std::move(packed);
   eco.exact = std::move(exact);
-  return {};
+  std::vector<std::uint32_t> order(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) order[i] = keys[i].instance;
+  return order;
 }
 
 }  // namespace copse

@@ -24,7 +24,8 @@ struct ArrangeOptions {
   bool exact = false;            // 48 bytes an instance
   std::uint32_t depth = k_none;  // of the box hierarchy; none: so that a leaf has about 1000 instances
   std::array<double, 4> area{};  // x0, z0, x1, z1
-  // Where given, a foot stands on the ground again after its x and z were rounded.
+  // Where given, instances that are on the ground or along its normal are so again after their x and z were
+  // rounded.
   const TerrainGround* ground = nullptr;
 };
 
@@ -33,7 +34,9 @@ std::uint32_t usual_depth(std::size_t instances);
 
 // Fills blocks, packed or exact, boxes, area, depth, the errors, and of every type instances, scale_min and
 // scale_max. `eco.types`, with their bounds, and `eco.origin` must be there. Types without instances keep
-// their scales. Refused: 255 materials or more, or a motion above 255, unless exact.
-Result<void> arrange(const std::vector<Instance>& instances, const ArrangeOptions& options, Ecosystem& eco);
+// their scales. Answers which of `instances` each of the stored ones is. Refused: 255 materials or more, or a
+// motion above 255, unless exact.
+Result<std::vector<std::uint32_t>> arrange(const std::vector<Instance>& instances,
+                                           const ArrangeOptions& options, Ecosystem& eco);
 
 }  // namespace copse

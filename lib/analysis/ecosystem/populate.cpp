@@ -19,6 +19,10 @@ namespace {
 // What a type's random numbers are for.
 enum Stream : std::uint64_t { stream_cells = 1 << 20, stream_place, stream_look, stream_clusters };
 
+// Where a footprint does not fit its cell nothing can be promised, and a tree in the middle of each cell
+// would show the grid: it keeps this share of the cell from the border.
+constexpr double k_crowded_margin = 0.25;
+
 constexpr int k_tries_in_piece = 30, k_tries_anywhere = 1000, k_failures_in_a_row = 50;
 
 class Planter {
@@ -78,6 +82,8 @@ class Planter {
     i.trunk_material = p.trunk_material;
     i.leaf_material = p.leaf_material;
     i.motion = p.motion;
+    i.on_ground = true;
+    i.along_normal = p.tilt_to_ground;
     if (p.tint_map) {
       const TintMap& m = *p.tint_map;
       const auto pixel = [](double f, std::uint32_t n) {
@@ -118,7 +124,8 @@ class Planter {
         const double z0 = area_.z0 + static_cast<double>(row) * d;
         const double reach = types_[t].footprint * scale_of(t, i, {x0 + w / 2, z0 + d / 2});
         crowded[i] = 2 * reach > std::min(w, d);
-        const double mx = std::min(reach, w / 2), mz = std::min(reach, d / 2);
+        const double mx = crowded[i] ? k_crowded_margin * w : reach;
+        const double mz = crowded[i] ? k_crowded_margin * d : reach;
         const double x = random.uniform(x0 + mx, x0 + w - mx), z = random.uniform(z0 + mz, z0 + d - mz);
         random_ones_[t][i] = instance(t, i, {x, z});
       }
@@ -180,13 +187,14 @@ class Planter {
     const Spreader spreader(field);
     if (!(spreader.total() > 0)) return nowhere(t);
     const PlacementTest test(p.rules, area_, ground_);
+    const Feet feet = feet_to_avoid(t);
     int failures = 0;
     // In a random order: along the curve, the last ones would find their piece hemmed in by the first.
     std::vector<std::uint64_t> pieces(p.count);
     std::iota(pieces.begin(), pieces.end(), 0);
     stream(t, stream_place).fork(p.count).shuffle(std::span(pieces));
     for (const std::uint64_t i : pieces) {
-      if (place_apart(t, i, spreader, test)) {
+      if (place_apart(t, i, spreader, test, feet)) {
         failures = 0;
         continue;
       }
@@ -203,13 +211,34 @@ class Planter {
     return {};
   }
 
-  bool place_apart(std::size_t t, std::uint64_t i, const Spreader& spreader, const PlacementTest& test) {
+  // Points as discs, because Spacing knows discs alone: what is asked of them is smaller by their radius.
+  struct Feet {
+    Spacing discs;
+    double radius = 0;
+    bool clear_of(const Disc& disc) const {
+      return discs.size() == 0 || discs.is_free({disc.x, disc.z, disc.radius - radius});
+    }
+  };
+
+  Feet feet_to_avoid(std::size_t t) const {
+    Feet feet{.discs = {}, .radius = types_[t].spacing * types_[t].scale.min / 2};
+    const auto add = [&](const Instance& i) { feet.discs.add({i.position.x, i.position.z, feet.radius}); };
+    for (const std::size_t other : types_[t].avoid) {
+      if (types_[other].spacing > 0) continue;  // they keep apart anyway
+      for (const Instance& i : random_ones_[other]) add(i);
+      for (const Instance& i : types_[other].manual) add(i);
+    }
+    return feet;
+  }
+
+  bool place_apart(std::size_t t, std::uint64_t i, const Spreader& spreader, const PlacementTest& test,
+                   const Feet& feet) {
     Random random = stream(t, stream_place).fork(i);
     for (int n = 0; n < k_tries_in_piece + k_tries_anywhere; ++n) {
       const bool own = n < k_tries_in_piece;
       const GroundPlace at = spreader.draw(own ? i : 0, own ? types_[t].count : 1, test, random);
       const Disc disc{at.x, at.z, types_[t].spacing * scale_of(t, i, at)};
-      if (!spacing_.is_free(disc)) continue;
+      if (!spacing_.is_free(disc) || !feet.clear_of(disc)) continue;
       spacing_.add(disc);
       random_ones_[t].push_back(instance(t, i, at));
       return true;

@@ -2,7 +2,8 @@
 //
 // Types that nothing limits share the jittered cells of the thesis (jittered_cells.h); those with maps or
 // rules are spread over a density field (spread.h); those with spacing are kept apart from all others with
-// spacing (spacing.h), the largest first. Counts are kept, or the run is refused.
+// spacing (spacing.h), the largest first, and from the feet of those that they are to avoid. Counts are kept,
+// or the run is refused.
 //
 // Every instance has random streams of its own, so the result is the same for any number of threads. Source:
 // digest 000, sections 2.2 to 2.4 and 8, errata E3 to E6.
@@ -40,7 +41,9 @@ struct TypePlan {
   PlacementRules rules{};
   double footprint = 0;  // m at scale 1: in cells this far from the border of the cell, where it fits
   double spacing = 0;    // m at scale 1: radius of a disc that overlaps no other; 0: not kept apart
-  bool fewer = false;    // when they do not all fit: fewer, instead of none
+  // Types without spacing whose feet, those by hand included, its discs keep off.
+  std::vector<std::size_t> avoid{};
+  bool fewer = false;              // when they do not all fit: fewer, instead of none
   std::vector<Instance> manual{};  // by hand, added to the random ones
 };
 

@@ -44,6 +44,11 @@ Quaternion with_head(const Quaternion& tilt, double head) {
   return product(tilt, {0, y.sin, 0, y.cos});
 }
 
+Quaternion leaned(const Quaternion& rotation, const Double3& normal) {
+  const Quaternion was = tilt_to(rotate(rotation, {0, 1, 0}));
+  return product(tilt_to(normal), product({-was[0], -was[1], -was[2], was[3]}, rotation));
+}
+
 Angles angles_of(const Quaternion& rotation) {
   const Double3 up = rotate(rotation, {0, 1, 0});
   Angles a;

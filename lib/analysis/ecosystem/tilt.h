@@ -21,6 +21,9 @@ Quaternion tilt_of(double pitch, double roll);
 // tilt * Ry(head).
 Quaternion with_head(const Quaternion& tilt, double head);
 
+// `rotation`, whose axis is along one upward normal, with its axis along another and its head as it was.
+Quaternion leaned(const Quaternion& rotation, const Double3& normal);
+
 // head, pitch and roll, in degrees, of a rotation: with_head(tilt_of(pitch, roll), head) gives it back. Head
 // in
 // (-180, 180]. For people and CSV files; computed with the library's atan2.

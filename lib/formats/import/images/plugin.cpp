@@ -144,62 +144,73 @@ void expand(const std::vector<Number>& from, const Layout& layout, std::uint8_t*
   }
 }
 
+// An image that is open, and the bytes that it is read from. `wrong` says why it is not.
+struct Opened {
+  OIIO::Filesystem::IOMemReader memory;
+  std::unique_ptr<OIIO::ImageInput> input;
+  OIIO::ImageSpec spec;
+  std::string wrong;
+
+  Opened(const std::uint8_t* bytes, std::size_t size, const char* format) : memory(bytes, size) {
+    configure();
+    wrong = open(format);
+  }
+  std::size_t pixels() const {
+    return static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  }
+  // After reading; 0 when `good`.
+  int close(bool good, CopseImageError* error) {
+    const std::string reason = good ? std::string() : input->geterror();
+    input->close();
+    return good ? 0 : report(error, reason.empty() ? "its pixels cannot be read" : reason);
+  }
+
+ private:
+  std::string open(const char* format) {
+    input = OIIO::ImageInput::create(format);
+    if (!input) return OIIO::geterror();
+    if (!input->supports("ioproxy")) return "the format cannot be read from memory";
+    input->set_ioproxy(&memory);
+    OIIO::ImageSpec config;
+    config["oiio:UnassociatedAlpha"] = 1;
+    if (!input->open(std::string("image.") + format, spec, config)) return input->geterror();
+    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
+      return "it has no pixels that make a picture";
+    return {};
+  }
+};
+
 int decode(const std::uint8_t* bytes, std::size_t size, const char* format, CopseImageAllocate allocate,
            void* user, CopseImageError* error) {
-  configure();
-  OIIO::Filesystem::IOMemReader memory(bytes, size);
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
-  if (!input) return report(error, OIIO::geterror());
-  if (!input->supports("ioproxy")) return report(error, "the format cannot be read from memory");
-  input->set_ioproxy(&memory);
-  OIIO::ImageSpec config;
-  config["oiio:UnassociatedAlpha"] = 1;
-  OIIO::ImageSpec spec;
-  if (!input->open(std::string("image.") + format, spec, config)) return report(error, input->geterror());
-  const Layout layout = layout_of(spec);
-  if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || layout.channels < 1)
-    return report(error, "it has no pixels that make a picture");
-  std::uint8_t* out = allocate(user, spec.width, spec.height, layout.alpha >= 0 ? 1 : 0);
+  Opened image(bytes, size, format);
+  if (!image.wrong.empty()) return report(error, image.wrong);
+  const Layout layout = layout_of(image.spec);
+  std::uint8_t* out = allocate(user, image.spec.width, image.spec.height, layout.alpha >= 0 ? 1 : 0);
   if (out == nullptr) return report(error, "it is too large");
-  const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-  const std::size_t numbers = pixels * static_cast<std::size_t>(layout.channels);
+  const std::size_t numbers = image.pixels() * static_cast<std::size_t>(layout.channels);
   bool good = false;
-  if (is_linear(spec)) {
+  if (is_linear(image.spec)) {
     std::vector<float> buffer(numbers);
-    good = input->read_image(0, 0, 0, layout.channels, OIIO::TypeDesc::FLOAT, buffer.data());
-    expand(buffer, layout, out, pixels, 255, [](float v, const float* alpha) {
+    good = image.input->read_image(0, 0, 0, layout.channels, OIIO::TypeDesc::FLOAT, buffer.data());
+    expand(buffer, layout, out, image.pixels(), 255, [](float v, const float* alpha) {
       return linear_to_srgb(alpha != nullptr && *alpha > 0 ? v / *alpha : v);
     });
   } else {
     std::vector<std::uint8_t> buffer(numbers);
-    good = input->read_image(0, 0, 0, layout.channels, OIIO::TypeDesc::UINT8, buffer.data());
-    expand(buffer, layout, out, pixels, 255, [](std::uint8_t v, const std::uint8_t*) { return v; });
+    good = image.input->read_image(0, 0, 0, layout.channels, OIIO::TypeDesc::UINT8, buffer.data());
+    expand(buffer, layout, out, image.pixels(), 255, [](std::uint8_t v, const std::uint8_t*) { return v; });
   }
-  const std::string reason = good ? std::string() : input->geterror();
-  input->close();
-  return good ? 0 : report(error, reason.empty() ? "its pixels cannot be read" : reason);
+  return image.close(good, error);
 }
 
 int decode_floats(const std::uint8_t* bytes, std::size_t size, const char* format,
                   CopseImageAllocateFloats allocate, void* user, CopseImageError* error) {
-  configure();
-  OIIO::Filesystem::IOMemReader memory(bytes, size);
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
-  if (!input) return report(error, OIIO::geterror());
-  if (!input->supports("ioproxy")) return report(error, "the format cannot be read from memory");
-  input->set_ioproxy(&memory);
-  OIIO::ImageSpec config;
-  config["oiio:UnassociatedAlpha"] = 1;
-  OIIO::ImageSpec spec;
-  if (!input->open(std::string("image.") + format, spec, config)) return report(error, input->geterror());
-  if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
-    return report(error, "it has no pixels that make a picture");
-  float* out = allocate(user, spec.width, spec.height, spec.nchannels);
+  Opened image(bytes, size, format);
+  if (!image.wrong.empty()) return report(error, image.wrong);
+  float* out = allocate(user, image.spec.width, image.spec.height, image.spec.nchannels);
   if (out == nullptr) return report(error, "it is too large");
-  const bool good = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out);
-  const std::string reason = good ? std::string() : input->geterror();
-  input->close();
-  return good ? 0 : report(error, reason.empty() ? "its pixels cannot be read" : reason);
+  return image.close(image.input->read_image(0, 0, 0, image.spec.nchannels, OIIO::TypeDesc::FLOAT, out),
+                     error);
 }
 
 // Pixels as the file wants them: bytes, or linear premultiplied floats.
