@@ -3,6 +3,7 @@
 //   fuzz_container_seeds fuzz/corpus/container
 #include "lib/formats/atomic_file.h"
 #include "lib/formats/tree_file.h"
+#include "lib/formats/tree_pack.h"
 #include "tests/formats/tree_maker.h"
 
 #include <cstdio>
@@ -34,12 +35,30 @@ Result<void> write_seed(const std::filesystem::path& folder, TreeKind kind, bool
   return write_file(folder / name, *bytes);
 }
 
+Result<void> write_packed_seed(const std::filesystem::path& folder) {
+  const Tree tree =
+      make_tree({.roots = 1, .radii = 6, .leaves = 5, .groups = 2, .materials = 2, .textures = 1}, 3);
+  const auto plain = encode_tree(tree);
+  if (!plain) return std::unexpected(plain.error());
+  const auto file = Container::from_bytes(*plain, "seed");
+  if (!file) return std::unexpected(file.error());
+  const auto packed = pack_tree(tree, {});
+  if (!packed) return std::unexpected(packed.error());
+  ContainerWriter writer(*file);
+  if (auto done = put_packed(writer, *packed); !done) return done;
+  const auto bytes = writer.finish();
+  if (!bytes) return std::unexpected(bytes.error());
+  return write_file(folder / "packed.stree", *bytes);
+}
+
 }  // namespace
 }  // namespace copse
 
 int main(int argc, char** argv) {
   using namespace copse;
   if (argc != 2) return std::puts("fuzz_container_seeds FOLDER"), 2;
+  if (const auto written = write_packed_seed(argv[1]); !written)
+    return std::puts(to_line(written.error(), "fuzz_container_seeds").c_str()), 3;
   for (const TreeKind kind : {TreeKind::still, TreeKind::sensitive}) {
     for (const bool constant : {false, true}) {
       for (const Encoding encoding : {Encoding::raw, Encoding::zstd}) {

@@ -1,6 +1,7 @@
 #include "lib/formats/spectrum_codec.h"
 
 #include "lib/formats/little_endian.h"
+#include "lib/formats/octahedral.h"
 
 #include <algorithm>
 #include <bit>
@@ -43,27 +44,6 @@ struct Ranges {
   }
 };
 
-void octahedral(const Float3& n, std::int8_t out[2]) {
-  const double sum = std::abs(double{n.x}) + std::abs(double{n.y}) + std::abs(double{n.z});
-  double u = sum > 0 ? n.x / sum : 0, v = sum > 0 ? n.y / sum : 0;
-  if (n.z < 0) {
-    const double folded = (1 - std::abs(v)) * (u < 0 ? -1 : 1);
-    v = (1 - std::abs(u)) * (v < 0 ? -1 : 1), u = folded;
-  }
-  out[0] = static_cast<std::int8_t>(std::lround(u * 127)),
-  out[1] = static_cast<std::int8_t>(std::lround(v * 127));
-}
-
-Float3 from_octahedral(const std::int8_t in[2]) {
-  double u = in[0] / 127.0, v = in[1] / 127.0;
-  const double z = 1 - std::abs(u) - std::abs(v);
-  if (z < 0) {
-    const double unfolded = (1 - std::abs(v)) * (u < 0 ? -1 : 1);
-    v = (1 - std::abs(u)) * (v < 0 ? -1 : 1), u = unfolded;
-  }
-  return to_float(normalized({u, v, z}));
-}
-
 Ranges ranges_of(const Spectrum& s, const SpectrumCodingOptions& options) {
   Ranges r;
   r.position_bits = static_cast<std::uint8_t>(std::clamp(options.position_bits, 8, 16));
@@ -87,7 +67,8 @@ std::uint16_t quantised(double value, double low, double step) {
 PackedVertex packed(const SpectrumVertex& v, const Ranges& r) {
   PackedVertex p{};
   for (int c = 0; c < 3; ++c) p.position[c] = quantised(v.position[c], r.min[c], r.step());
-  octahedral(v.normal, p.normal);
+  const Octahedral normal = to_octahedral(to_double(v.normal));
+  for (int c = 0; c < 2; ++c) p.normal[c] = static_cast<std::int8_t>(normal[c]);
   p.texcoord[0] = quantised(v.texcoord.x, r.low.x, r.step(0));
   p.texcoord[1] = quantised(v.texcoord.y, r.low.y, r.step(1));
   return p;
@@ -96,7 +77,7 @@ PackedVertex packed(const SpectrumVertex& v, const Ranges& r) {
 SpectrumVertex unpacked(const PackedVertex& p, const Ranges& r) {
   SpectrumVertex v;
   for (int c = 0; c < 3; ++c) v.position[c] = static_cast<float>(r.min[c] + p.position[c] * r.step());
-  v.normal = from_octahedral(p.normal);
+  v.normal = from_octahedral({p.normal[0], p.normal[1]});
   v.texcoord = {static_cast<float>(r.low.x + p.texcoord[0] * r.step(0)),
                 static_cast<float>(r.low.y + p.texcoord[1] * r.step(1))};
   return v;

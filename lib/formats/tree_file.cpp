@@ -3,6 +3,7 @@
 #include "lib/formats/check_tree.h"
 #include "lib/formats/little_endian.h"
 #include "lib/formats/materials.h"
+#include "lib/formats/tree_pack.h"
 #include "lib/formats/tree_sections.h"
 #include "lib/formats/tree_volumes.h"
 
@@ -37,7 +38,8 @@ bool is_tree_section(std::string_view name) {
 }  // namespace
 
 struct TreeFile::Impl {
-  Container file;
+  Container stored;  // as it is
+  Container file;    // as it reads: what is packed, unpacked
   Trust trust = Trust::nothing;
   Head head;
   std::vector<Omitted> omitted;
@@ -243,7 +245,10 @@ Result<TreeFile> TreeFile::from_bytes(std::vector<std::uint8_t> bytes, std::stri
 
 Result<TreeFile> TreeFile::from_container(Container container, Trust trust) {
   auto impl = std::make_shared<Impl>();
-  impl->file = std::move(container);
+  auto whole = unpacked(container);
+  if (!whole) return std::unexpected(whole.error());
+  impl->stored = std::move(container);
+  impl->file = std::move(*whole);
   impl->trust = trust;
   if (auto head = impl->read_head(); !head) return std::unexpected(head.error());
   if (auto omitted = impl->read_omitted(); !omitted) return std::unexpected(omitted.error());
@@ -258,7 +263,7 @@ const TreeCounts& TreeFile::counts() const {
   return impl_->head.counts;
 }
 const std::vector<SectionInfo>& TreeFile::sections() const {
-  return impl_->file.sections();
+  return impl_->stored.sections();
 }
 const std::vector<std::string>& TreeFile::omitted() const {
   return impl_->omitted_names;
@@ -270,10 +275,10 @@ bool TreeFile::has(std::string_view section) const {
   return impl_->file.find(section) != nullptr;
 }
 std::uint64_t TreeFile::size() const {
-  return impl_->file.size();
+  return impl_->stored.size();
 }
 const Container& TreeFile::container() const {
-  return impl_->file;
+  return impl_->stored;
 }
 
 Result<Array<std::uint8_t>> TreeFile::section(std::string_view name) const {
@@ -307,7 +312,7 @@ Result<Tree> TreeFile::load_named(const std::vector<std::string>* only) const {
 std::vector<std::string> TreeFile::verify() const {
   std::vector<std::string> failures;
   for (const SectionInfo& s : sections()) {
-    if (auto sound = impl_->file.verify(s); !sound) failures.push_back(sound.error().what);
+    if (auto sound = impl_->stored.verify(s); !sound) failures.push_back(sound.error().what);
   }
   auto tree = impl_->load(nullptr, Verify::no);
   if (!tree) {

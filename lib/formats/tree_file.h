@@ -48,7 +48,7 @@ class TreeFile {
                                      Trust trust = Trust::nothing);
 
   const TreeHeader& header() const;
-  const std::vector<SectionInfo>& sections() const;
+  const std::vector<SectionInfo>& sections() const;  // as stored: PACK stands for those that it packs
   const TreeCounts& counts() const;                 // of elements, present or left out by choice
   const std::vector<std::string>& omitted() const;  // what the writer left out on purpose
   const std::vector<Omitted>& omissions() const;    // the same, with the bytes that it saved

@@ -8,6 +8,7 @@
 #include "tools/lodbake/levels.h"
 #include "tools/lodbake/looks.h"
 #include "tools/lodbake/measure_stage.h"
+#include "tools/lodbake/packing.h"
 #include "tools/lodbake/spectra.h"
 
 #include <algorithm>
@@ -107,10 +108,11 @@ Result<void> check_errors(const Options& options, const LodSpectra& spectra) {
   return {};
 }
 
-Result<void> write(const Options& options, const TreeFile& file, const BakedSpectra& baked,
-                   Context& context) {
+Result<void> write(const Options& options, const TreeFile& file, const std::optional<PackedTree>& packed,
+                   const BakedSpectra& baked, Context& context) {
   Stage stage = context.stage("write");
   ContainerWriter writer(file.container());
+  if (auto done = write_base(options, file, packed, writer, context); !done) return done;
   // Without --continuous the file has what the discrete levels need and no more.
   const LodSpectra few = options.continuous ? LodSpectra{} : discrete_spectra(baked.spectra);
   const auto errors = put_spectra(writer, options.continuous ? baked.spectra : few, options.coding);
@@ -142,6 +144,8 @@ Result<void> run(const Options& options, Context& context) {
   if (auto right = check_output(options, *file); !right) return right;
   auto tree = file->load();
   if (!tree) return std::unexpected(tree.error());
+  const auto packed = pack_base(options, *file, *tree, context);
+  if (!packed) return std::unexpected(packed.error());
   const TreeLooks looks(*tree, options.input, context);
   if (auto right = check_lines_points(options, *file); !right) return right;
   auto baked = make_spectra(*tree, looks.looks(), options, context);
@@ -158,7 +162,7 @@ Result<void> run(const Options& options, Context& context) {
     context.report().pictures.push_back(std::move(*strip));
   }
   if (auto within = check_errors(options, *spectra); !within) return within;
-  return write(options, *file, *baked, context);
+  return write(options, *file, *packed, *baked, context);
 }
 
 }  // namespace copse::lodbake

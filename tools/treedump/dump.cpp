@@ -18,6 +18,7 @@ constexpr std::array k_sections{Name{"HEAD", "header"},
                                 Name{"MNAM", "names of the materials"},
                                 Name{"TEXR", "textures"},
                                 Name{"TNAM", "names of the textures"},
+                                Name{"PACK", "trunk, leaves and hierarchy, packed"},
                                 Name{"TDAT", "embedded images"},
                                 Name{"RADI", "radii of the hierarchy"},
                                 Name{"RFIR", "first vector of each radius"},
@@ -153,7 +154,16 @@ Result<Dump> open_dump(const std::filesystem::path& path, const std::vector<std:
   for (const SectionState& section : dump.sections) {
     const std::string& name = section.info.name;
     const bool asked = wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-    if (asked && section.damage.empty()) load_section(dump, name);
+    if (!asked || !section.damage.empty()) continue;
+    if (name != "PACK") {
+      load_section(dump, name);
+      continue;
+    }
+    const Head head{.header = dump.tree.header, .counts = dump.file->counts()};
+    const Tree none;
+    for_each_array(none, head, [&](std::string_view packed, const auto&, std::uint64_t, Presence) {
+      if (dump.file->has(packed)) load_section(dump, std::string(packed));
+    });
   }
   return dump;
 }

@@ -97,6 +97,16 @@ void add_options(CLI::App& app, Options& options) {
   add_choice<Encoding>(*output, "--compress", options.encoding,
                        "how sections are stored: none (mapped in place) or zstd (small)",
                        {{"none", Encoding::raw}, {"zstd", Encoding::zstd}});
+  add_choice<bool>(*output, "--encode", options.small,
+                   "fast: exact, mapped in place; small: quantised and packed",
+                   {{"fast", false}, {"small", true}})
+      ->type_name("fast|small");
+  output
+      ->add_option("--position-bits", options.position_bits,
+                   "of --encode small: bits of the longest side of the box")
+      ->check(whole_number_from(8, 20))
+      ->type_name("N")
+      ->capture_default_str();
 }
 
 }  // namespace copse::treeprep

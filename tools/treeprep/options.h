@@ -26,6 +26,8 @@ struct Options {
   double weld = -1;  // share of the bounding box's diagonal; negative: place by place (trunk/tolerances.h)
   std::vector<std::string> omit, only;  // names of parts.h
   Encoding encoding = Encoding::raw;
+  bool small = false;      // packed (lib/formats/tree_pack.h)
+  int position_bits = 14;  // of a packed tree
 };
 
 void add_options(CLI::App& app, Options& options);

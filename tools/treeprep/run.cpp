@@ -7,6 +7,7 @@
 #include "lib/analysis/trunk/recover.h"
 #include "lib/analysis/trunk/trunk_mesh.h"
 #include "lib/formats/tree_file.h"
+#include "lib/formats/tree_pack.h"
 #include "tools/treeprep/findings.h"
 #include "tools/treeprep/input.h"
 #include "tools/treeprep/leaf_stage.h"
@@ -113,11 +114,49 @@ Result<void> report_stage(const Input& input, const Analysis& a, Context& contex
   return {};
 }
 
+// Packed: the file is written as it would be, then its sections are packed into one.
+Result<void> write_packed(const Options& options, const Tree& tree, const LeftOut& left_out, Stage& stage,
+                          Context& context) {
+  auto plain = encode_tree(tree, {.encoding = Encoding::raw, .omit = left_out.sections});
+  if (!plain) return std::unexpected(plain.error());
+  const auto file = TreeFile::from_bytes(std::move(*plain), options.output.string(), Trust::file);
+  if (!file) return std::unexpected(file.error());
+  const auto reduced = file->load();
+  if (!reduced) return std::unexpected(reduced.error());
+  if (const std::string why = why_unpackable(*reduced); !why.empty())
+    return fail(Fault::usage, options.output.string(), "this tree cannot be packed: " + why,
+                "leave --encode small away, or name an .stree and omit less");
+  const auto packed = pack_tree(*reduced, {.position_bits = options.position_bits});
+  if (!packed)
+    return fail(packed.error().fault, options.output.string(), packed.error().what, packed.error().remedy);
+  context.report().errors.push_back({"packing of the trunk, largest",
+                                     packed->trunk_error,
+                                     "m",
+                                     packed->trunk_error,
+                                     {},
+                                     {},
+                                     "the tree before packing"});
+  context.report().errors.push_back({"packing of the leaves, largest",
+                                     packed->leaf_error,
+                                     "m",
+                                     packed->leaf_error,
+                                     {},
+                                     {},
+                                     "the tree before packing"});
+  ContainerWriter writer(file->container());
+  if (auto done = put_packed(writer, *packed); !done) return done;
+  const auto bytes = writer.finish();
+  if (!bytes) return std::unexpected(bytes.error());
+  stage.items(bytes->size(), "bytes");
+  return context.write(options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+}
+
 Result<void> write_stage(const Options& options, Analysis& a, const LeftOut& left_out, Context& context) {
   Stage stage = context.stage("write");
   auto origin = provenance(options, context.options().seed);
   if (!origin) return std::unexpected(origin.error());
   a.assembled.tree.provenance = std::move(*origin);
+  if (options.small) return write_packed(options, a.assembled.tree, left_out, stage, context);
   const auto bytes =
       encode_tree_pieces(a.assembled.tree, {.encoding = options.encoding, .omit = left_out.sections});
   if (!bytes) return std::unexpected(bytes.error());

@@ -1,0 +1,60 @@
+#include "tools/lodbake/packing.h"
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace copse::lodbake {
+
+Result<std::optional<PackedTree>> pack_base(const Options& options, const TreeFile& file, Tree& tree,
+                                            Context& context) {
+  if (options.coding.coding != SpectrumCoding::small || file.container().find("PACK")) return std::nullopt;
+  if (const std::string why = why_unpackable(tree); !why.empty()) {
+    context.warn(fmt::format("{}: the tree itself is not packed: {}; its sections are compressed as they are",
+                             options.input.string(), why));
+    return std::nullopt;
+  }
+  Stage stage = context.stage("pack");
+  stage.items(tree.trunk.triangles.size() + tree.leaves.triangles.size(), "triangles");
+  auto packed = pack_tree(
+      tree, {.position_bits = options.coding.position_bits, .texcoord_bits = options.coding.texcoord_bits});
+  if (!packed) {
+    packed.error().file = options.input.string();
+    return std::unexpected(packed.error());
+  }
+  tree = packed->tree;
+  return std::move(*packed);
+}
+
+Result<void> write_base(const Options& options, const TreeFile& file, const std::optional<PackedTree>& packed,
+                        ContainerWriter& writer, Context& context) {
+  if (packed) {
+    std::string gone;
+    for (const char* name :
+         {"VSET", "VOLU", "VNUM", "VNOD", "FCEL", "FORD", "FVWS", "FVTR", "FVIS", "FPAR"}) {
+      if (!file.container().find(name)) continue;
+      gone += (gone.empty() ? "" : ", ") + std::string(name);
+      writer.remove(name);
+    }
+    if (!gone.empty())
+      context.warn(fmt::format("{}: {} are of the tree before it was packed and are left out; fit them again",
+                               options.input.string(), gone));
+    const auto tell = [&](const char* name, double error) {
+      context.report().errors.push_back({name, error, "m", error, {}, {}, "the tree before packing"});
+    };
+    tell("packing of the trunk, largest", packed->trunk_error);
+    tell("packing of the leaves, largest", packed->leaf_error);
+    return put_packed(writer, *packed);
+  }
+  if (options.coding.coding != SpectrumCoding::small) return {};
+  for (const SectionInfo& s : file.container().sections()) {
+    if (s.encoding != Encoding::raw || s.name == "HEAD" || s.name == "OMIT" || s.name == "PACK") continue;
+    auto bytes = file.container().read(s);
+    if (!bytes) return std::unexpected(bytes.error());
+    if (auto done = writer.put(s.name, s.version, s.stride, *bytes, Encoding::zstd); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace copse::lodbake
