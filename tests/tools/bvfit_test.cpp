@@ -249,7 +249,8 @@ TEST_F(Bvfit, ChoicesFollowTheirCriterion) {
   EXPECT_EQ(type({"--choose", "weighted", "--volumes", "sphere,lozenge"}), "sphere");
   EXPECT_EQ(type({"--choose", "volume", "--volumes", "sphere,lozenge"}), "lozenge");
   EXPECT_EQ(type({"--choose", "expected", "--content-cost", "0"}), "sphere");
-  EXPECT_EQ(type({"--choose", "aspect"}), "sphere");
+  EXPECT_EQ(type({"--choose", "aspect"}), "lozenge");
+  EXPECT_EQ(type({"--choose", "aspect", "--aspect-tree", "seed"}), "sphere");
   EXPECT_EQ(type({"--choose", "aspect", "--aspect-tree", "capsule"}), "capsule");
   // only what the tree picks is fitted
   EXPECT_EQ(fitted({mesh, "--choose", "aspect", "--aspect-tree", "capsule"})["sets"][0]["volumes"].size(),
@@ -285,7 +286,7 @@ TEST_F(Bvfit, HierarchiesAreComparedWithTheDissertation) {
   const Outcome o = run({tree(), "--per", "groups", "--quality", "fast", "--compare-hierarchies", "--tune"});
   ASSERT_EQ(o.status, 0) << o.err;
   for (const char* part :
-       {"kd16", "rtree8", "clusters", "original", "flat", "19 h 26 min", "aspect trees on"}) {
+       {"kd16", "rtree8", "clusters", "original", "flat", "19 h 26 min", "aspect trees on", "    seed  "}) {
     EXPECT_NE(o.out.find(part), std::string::npos) << part;
   }
 }

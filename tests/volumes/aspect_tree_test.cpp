@@ -20,11 +20,21 @@ TEST(AspectTree, RatiosAreOfSortedExtents) {
   EXPECT_DOUBLE_EQ(aspect_ratios({0, 5, 0}).ratio[1], 1e6);  // a line
 }
 
-TEST(AspectTree, TheDefaultTellsRodsPlatesAndBallsApart) {
-  const AspectTree tree;
+TEST(AspectTree, TheSeedsTellsRodsPlatesAndBallsApart) {
+  const AspectTree tree = AspectTree::seed();
   EXPECT_EQ(tree.choose(aspect_ratios({10, 1, 1})), VolumeKind::capsule);
   EXPECT_EQ(tree.choose(aspect_ratios({10, 10, 1})), VolumeKind::lozenge);
   EXPECT_EQ(tree.choose(aspect_ratios({1, 1, 1})), VolumeKind::sphere);
+  EXPECT_EQ(AspectTree::parse("seed")->text(), tree.text());
+}
+
+TEST(AspectTree, TheDefaultTellsTubesPlatesAndWhatIsCompactApart) {
+  const AspectTree tree;
+  EXPECT_EQ(tree.choose(aspect_ratios({10, 1, 1})), VolumeKind::cylinder);
+  EXPECT_EQ(tree.choose(aspect_ratios({10, 10, 1})), VolumeKind::obb);
+  EXPECT_EQ(tree.choose(aspect_ratios({1.1, 1.05, 1})), VolumeKind::lozenge);
+  EXPECT_EQ(tree.choose(aspect_ratios({2, 1.05, 1})), VolumeKind::obb);
+  EXPECT_EQ(AspectTree::parse("default")->text(), tree.text());
 }
 
 TEST(AspectTree, TextComesBack) {

@@ -100,12 +100,15 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str()
       ->type_name("P");
   choice
-      ->add_option("--aspect-tree", options.aspect_tree,
-                   "with --choose aspect: the comparisons, as ratio1>2?capsule:(ratio3>2.5?lozenge:obb)")
+      ->add_option(
+          "--aspect-tree", options.aspect_tree,
+          "with --choose aspect: the comparisons, as ratio1>2?capsule:(ratio3>2.5?lozenge:obb); default "
+          "(tuned) or seed (to begin with)")
       ->type_name("TREE");
-  choice->add_flag(
-      "--tune", options.tune,
-      "finds the aspect tree whose choices come nearest to the smallest volumes of all parts, and prints it");
+  choice->add_flag("--tune", options.tune,
+                   "finds the aspect tree whose choices come nearest to the smallest volumes of all parts, "
+                   "and prints it; of "
+                   "the types named by --volumes, or sphere, obb, capsule, cylinder and lozenge");
 
   CLI::Option_group* above = app.add_option_group("Above the parts");
   above

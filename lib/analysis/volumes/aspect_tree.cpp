@@ -179,6 +179,21 @@ AspectRatios aspect_ratios(const Double3& extents) {
 
 AspectTree::AspectTree() {
   nodes = {};
+  nodes[0] = {3, 1.001, VolumeKind::obb};
+  nodes[1] = {3, 1.1, VolumeKind::obb};
+  nodes[2] = {1, 2.4, VolumeKind::obb};
+  nodes[3] = leaf(VolumeKind::obb);
+  nodes[4] = {2, 1.15, VolumeKind::obb};
+  nodes[5] = leaf(VolumeKind::cylinder);
+  nodes[6] = leaf(VolumeKind::lozenge);
+  nodes[9] = leaf(VolumeKind::obb);
+  nodes[10] = leaf(VolumeKind::lozenge);
+}
+
+AspectTree AspectTree::seed() {
+  AspectTree tree;
+  auto& nodes = tree.nodes;
+  nodes = {};
   nodes[0] = {1, 2, VolumeKind::obb};
   nodes[1] = leaf(VolumeKind::capsule);
   nodes[2] = {3, 1.25, VolumeKind::obb};
@@ -186,6 +201,7 @@ AspectTree::AspectTree() {
   nodes[6] = {2, 1.25, VolumeKind::obb};
   nodes[13] = leaf(VolumeKind::lozenge);
   nodes[14] = leaf(VolumeKind::sphere);
+  return tree;
 }
 
 VolumeKind AspectTree::choose(const AspectRatios& ratios) const {
@@ -225,6 +241,8 @@ std::string AspectTree::text() const {
 }
 
 Result<AspectTree> AspectTree::parse(std::string_view text) {
+  if (text == "default") return AspectTree();
+  if (text == "seed") return seed();
   return Parser(text).parse();
 }
 

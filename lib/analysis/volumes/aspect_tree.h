@@ -3,8 +3,9 @@
 //
 // Source: digest 002, section 6 (the dissertation's section 6.3): with sorted extents L >= M >= S, ratio2 =
 // L / M, ratio3 = M / S, ratio1 = ratio2 / ratio3; a binary tree of at most three comparisons, whose
-// thresholds are the user's or tuned. Its own thresholds are lost with its figure; the default ones are a
-// plain guess: `bvfit --tune` finds those that agree best with the smallest volumes of given parts.
+// thresholds are the user's or tuned. Its own thresholds are lost with its figure; `seed` is what the digest
+// proposes to begin with. The default tree is tuned (docs/volumes.md has its figures), and `bvfit --tune`
+// finds the one that agrees best with the smallest volumes of given parts.
 #pragma once
 
 #include "lib/formats/result.h"
@@ -36,12 +37,14 @@ class AspectTree {
  public:
   static constexpr int k_levels = 3;
 
-  AspectTree();  // the default
+  AspectTree();              // the default
+  static AspectTree seed();  // rods get capsules, plates lozenges, what is compact spheres
 
   VolumeKind choose(const AspectRatios& ratios) const;
   std::vector<VolumeKind> kinds() const;  // that it may choose
 
-  // "ratio1>2?capsule:(ratio3>2.5?lozenge:obb)": text and back. An error (usage) names the place.
+  // "ratio1>2?capsule:(ratio3>2.5?lozenge:obb)": text and back; "default" and "seed" are read too. An error
+  // (usage) names the place.
   std::string text() const;
   static Result<AspectTree> parse(std::string_view text);
 
