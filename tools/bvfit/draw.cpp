@@ -186,11 +186,11 @@ Result<std::vector<ReportPicture>> volume_pictures(const Input& input, std::span
     if (fine && set.motion == VolumeMotion::rest) chosen.push_back(&set.volumes[set.chosen]);
   }
   if (chosen.empty()) return out;
-  // Thousands of outlines must not paint the mesh over.
+  // Thousands of outlines must not paint the mesh over, nor it them.
   const bool many = chosen.size() > 100;
-  const MeshPicture parts{"Volumes of the parts", "The outline of what was chosen for each part.", 0.9,
-                          is_leaf, [&](const OrthographicView& view) {
-                            std::string svg = many ? R"(<g stroke-width="0.5" stroke-opacity="0.3">)"
+  const MeshPicture parts{"Volumes of the parts", "The outline of what was chosen for each part.",
+                          many ? 0.4 : 0.9, is_leaf, [&](const OrthographicView& view) {
+                            std::string svg = many ? R"(<g stroke-width="0.8" stroke-opacity="0.6">)"
                                                    : R"(<g stroke-width="0.9">)";
                             for (const FittedVolume* v : chosen)
                               svg += outline_svg(*v, view, many ? 0 : 0.06, many ? 3 : 24);

@@ -165,6 +165,7 @@ Result<std::string> compare_hierarchies(std::span<const PartSet> parts, std::spa
       "{:>12} {:>12}   {}\n",
       std::count_if(parts.begin(), parts.end(), is_item), input.mesh.triangles.size(), "kind", "nodes",
       "depth", "time, s", "a ray", "a plane", "dissertation, 394 670 faces");
+  std::size_t nodes = 0;
   for (const std::string kind : k_kinds) {
     const double start = now();
     auto h = build_hierarchy(kind, parts, input);
@@ -172,6 +173,7 @@ Result<std::string> compare_hierarchies(std::span<const PartSet> parts, std::spa
     if (auto ok = fit_hierarchy(*h, parts, methods, options, choosing, stage); !ok)
       return std::unexpected(ok.error());
     const double seconds = now() - start;
+    nodes += h->inner.size();
     const SearchCost cost = search_cost(*h, fits, choosing);
     out +=
         fmt::format("    {:<10} {:>7} {:>6} {:>12.3g} {:>12.4g} {:>12.4g}   {}\n", kind, h->tree.nodes.size(),
@@ -180,6 +182,7 @@ Result<std::string> compare_hierarchies(std::span<const PartSet> parts, std::spa
                           fmt::format("{:.3g}", seconds), fmt::format("{:.4g}", cost.rays),
                           fmt::format("{:.4g}", cost.planes), seed_time(kind)});
   }
+  stage.items(nodes, "nodes");
   context.report().tables.push_back(std::move(table));
   return out + "\n";
 }

@@ -25,7 +25,7 @@ std::vector<Run> runs_of(const VolumeFitter& fitter, const std::vector<FitMethod
   std::size_t done = 0;
   for (const FitMethod& m : methods) {
     for (const auto& [quality, name] : k_qualities) {
-      if (!m.least && quality == FitQuality::exact) continue;  // the same in every quality
+      if ((m.quick || !m.least) && quality == FitQuality::exact) continue;  // the same in every quality
       Run run{m, m.quick ? "fast" : name, 0, 0, std::numeric_limits<double>::infinity()};
       for (int i = 0; i < k_repeats; ++i) {
         const auto fit = fitter.fit(m, {.quality = quality});
