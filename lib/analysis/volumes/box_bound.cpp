@@ -1,5 +1,7 @@
 #include "lib/analysis/volumes/box_bound.h"
 
+#include "lib/analysis/volumes/principal_axes.h"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -14,7 +16,9 @@ namespace {
 constexpr double k_zone = 0.41421356237309515;  // tan(pi / 8), rounded up
 constexpr double k_rounding = 1e-14;            // of a pair's length: the error of its products
 constexpr int k_corners = 8;
-constexpr int k_steps = 24;  // of the search for a combination of pairs
+constexpr double k_lean = 0.05;  // of the width: what terms of second order may take from it
+constexpr auto k_mixed = static_cast<std::uint32_t>(-1);  // of a combination of pairs
+constexpr int k_steps = 24;                               // of the search for a combination of pairs
 // The zone's cell is a little larger than the zone and off its middle, so that the known minimum does not lie
 // on the boundary of cells; but not turned: turns about a needle's axis must lie along one component.
 constexpr Double3 k_aside{0.0137, -0.0231, 0.0179};
@@ -35,11 +39,12 @@ struct Later {
   }
 };
 
-// A bound of the width along one axis, at the cell's corners, from one pair of vertices.
+// A bound of the width along one axis from one pair of vertices, or from a convex combination of some.
 struct PairBound {
-  std::uint32_t first, last;
-  std::array<double, k_corners> at;
-  Double3 slope;  // by each component of the turn
+  std::uint32_t first = 0, last = 0;
+  Double3 d;                           // from first to last, in the axes of the cell's middle
+  double error = 0;                    // of its products
+  std::array<double, k_corners> at{};  // the cell's corners
 };
 
 struct Ends {
@@ -55,7 +60,11 @@ class BoxBounder {
  public:
   BoxBounder(std::span<const Double3> vertices, const Axes& base, double volume,
              const BoxBoundOptions& options)
-      : vertices_(vertices), base_(base), volume_(volume), options_(options) {}
+      : vertices_(vertices),
+        length_(principal_axes(vertices).axes[0]),
+        base_(base),
+        volume_(volume),
+        options_(options) {}
 
   BoxBound run() {
     const auto start = std::chrono::steady_clock::now();
@@ -147,6 +156,7 @@ class BoxBounder {
         const Axes turned = rotated(axes, corner);
         for (int i = 0; i < 3; ++i) add_pair(axes, i, ends_along(turned[i], (*candidates)[i]));
       }
+      for (int i = 0; i < 3; ++i) add_level_pairs(axes, i, above[i]);
       bound = std::max(bound, combined(k_steps));
     }
     if (bound >= target()) {
@@ -174,62 +184,110 @@ class BoxBounder {
       if (p.first == e.first && p.last == e.last) return;
     }
     const Double3 world = vertices_[e.last] - vertices_[e.first];
-    const Double3 d{dot(world, axes[0]), dot(world, axes[1]), dot(world, axes[2])};
-    const double l = length(d);
-    Double3 unit;
-    unit[i] = 1;
-    PairBound p{e.first, e.last, {}, cross(unit, d) * 2};
-    // The terms of second order are d_i (r_i^2 - r_j^2 - r_k^2) + 2 r_i (r_j d_j + r_k d_k).
-    const int j = (i + 1) % 3, m = (i + 2) % 3;
-    const double squares = d[i] > 0 ? most_[j] * most_[j] + most_[m] * most_[m] : most_[i] * most_[i];
-    const double mixed = most_[j] * std::abs(d[j]) + most_[m] * std::abs(d[m]);
-    const double least = d[i] - std::abs(d[i]) * squares - 2 * most_[i] * mixed - k_rounding * l;
-    for (int k = 0; k < k_corners; ++k) p.at[k] = least + dot(corners_[k], p.slope);
+    PairBound p{e.first, e.last, {dot(world, axes[0]), dot(world, axes[1]), dot(world, axes[2])}, 0, {}};
+    p.error = k_rounding * length(p.d);
+    p.at = at_corners(i, p);
     pairs_[i].push_back(p);
   }
 
-  // The best bound met on the way from the first pairs towards the best combination of all (Frank-Wolfe on a
+  // By each component of the turn.
+  static Double3 slope(int i, const Double3& d) {
+    Double3 unit;
+    unit[i] = 1;
+    return cross(unit, d) * 2;
+  }
+
+  std::array<double, k_corners> at_corners(int i, const PairBound& p) const {
+    // The terms of second order are d_i (r_i^2 - r_j^2 - r_k^2) + 2 r_i (r_j d_j + r_k d_k).
+    const int j = (i + 1) % 3, m = (i + 2) % 3;
+    const double squares = p.d[i] > 0 ? most_[j] * most_[j] + most_[m] * most_[m] : most_[i] * most_[i];
+    const double mixed = most_[j] * std::abs(p.d[j]) + most_[m] * std::abs(p.d[m]);
+    const double least = p.d[i] - std::abs(p.d[i]) * squares - 2 * most_[i] * mixed - p.error;
+    const Double3 along = slope(i, p.d);
+    std::array<double, k_corners> at;
+    for (int k = 0; k < k_corners; ++k) at[k] = least + dot(corners_[k], along);
+    return at;
+  }
+
+  static PairBound mixed(const PairBound& a, const PairBound& b, double t) {
+    return {k_mixed, k_mixed, a.d + (b.d - a.d) * t, (a.error + (b.error - a.error) * t) * (1 + 1e-12), {}};
+  }
+
+  // Of a needle across its length a pair's terms of second order outweigh its width, unless the pair lies
+  // across. So what is extreme at right angles to the length is mixed with pairs that lean the other way
+  // until it does.
+  void add_level_pairs(const Axes& axes, int i, const std::vector<std::uint32_t>& list) {
+    const int j = (i + 1) % 3, m = (i + 2) % 3;
+    const PairBound& middle = pairs_[i][0];
+    const double lost = 2 * most_[i] * (most_[j] * std::abs(middle.d[j]) + most_[m] * std::abs(middle.d[m]));
+    if (lost < k_lean * middle.d[i]) return;
+    const Double3 across = axes[i] - length_ * dot(length_, axes[i]);
+    const std::size_t own = pairs_[i].size();
+    add_pair(axes, i, ends_along(across, list));
+    const std::size_t count = pairs_[i].size();
+    const Double3 along{dot(length_, axes[0]), dot(length_, axes[1]), dot(length_, axes[2])};
+    for (const std::size_t base : {std::size_t{0}, own}) {
+      if (base == count) continue;
+      const double from = dot(pairs_[i][base].d, along);
+      for (std::size_t k = 0; k < count; ++k) {
+        const double to = dot(pairs_[i][k].d, along);
+        if (from * to >= 0) continue;
+        PairBound level = mixed(pairs_[i][base], pairs_[i][k], from / (from - to));
+        level.at = at_corners(i, level);
+        pairs_[i].push_back(level);
+      }
+    }
+  }
+
+  // The one whose least bound is the largest; of equals the first.
+  const PairBound& safest(int i) const {
+    const auto least = [](const PairBound& p) { return *std::min_element(p.at.begin(), p.at.end()); };
+    return *std::max_element(pairs_[i].begin(), pairs_[i].end(),
+                             [&](const PairBound& a, const PairBound& b) { return least(a) < least(b); });
+  }
+
+  // The best bound met on the way from the safest pairs towards the best combination of all (Frank-Wolfe on a
   // smoothed minimum over the corners).
   double combined(int steps) const {
-    std::array<std::array<double, k_corners>, 3> at;
-    for (int i = 0; i < 3; ++i) at[i] = pairs_[i][0].at;
-    double best = product_of(at);
+    std::array<PairBound, 3> mix{safest(0), safest(1), safest(2)};
+    double best = product_of(mix);
     for (int step = 0; step < steps; ++step) {
-      const std::array<double, k_corners> weight = weights_of(at, 20.0 * (step + 1));
+      const std::array<double, k_corners> weight = weights_of(mix, 20.0 * (step + 1));
       const double towards = 2.0 / (step + 3);
       for (int i = 0; i < 3; ++i) {
         const PairBound* chosen = nullptr;
         double most = -std::numeric_limits<double>::infinity();
+        const double floor = std::max(1e-9 * pairs_[i][0].d[i], 1e-300);
         for (const PairBound& p : pairs_[i]) {
           double gain = 0;
-          for (int k = 0; k < k_corners; ++k)
-            gain += weight[k] * p.at[k] / std::max(at[i][k], 1e-9 * pairs_[i][0].at[0]);
+          for (int k = 0; k < k_corners; ++k) gain += weight[k] * p.at[k] / std::max(mix[i].at[k], floor);
           if (gain > most) most = gain, chosen = &p;
         }
         if (!chosen) continue;
-        for (int k = 0; k < k_corners; ++k) at[i][k] += (chosen->at[k] - at[i][k]) * towards;
+        mix[i] = mixed(mix[i], *chosen, towards);
+        mix[i].at = at_corners(i, mix[i]);
       }
-      best = std::max(best, product_of(at));
+      best = std::max(best, product_of(mix));
       if (best >= target()) break;
     }
     return best;
   }
 
-  double product_of(const std::array<std::array<double, k_corners>, 3>& at) const {
+  double product_of(const std::array<PairBound, 3>& mix) const {
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < k_corners; ++k) {
-      least = std::min(least, std::max(0.0, at[0][k]) * std::max(0.0, at[1][k]) * std::max(0.0, at[2][k]));
+      least = std::min(
+          least, std::max(0.0, mix[0].at[k]) * std::max(0.0, mix[1].at[k]) * std::max(0.0, mix[2].at[k]));
     }
     const double grown = 1 + reach_;
     return least / (grown * grown * grown) * (1 - 1e-14);
   }
 
-  static std::array<double, k_corners> weights_of(const std::array<std::array<double, k_corners>, 3>& at,
-                                                  double sharpness) {
+  static std::array<double, k_corners> weights_of(const std::array<PairBound, 3>& mix, double sharpness) {
     std::array<double, k_corners> logs{}, weight{};
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < k_corners; ++k) {
-      for (int i = 0; i < 3; ++i) logs[k] += std::max(-50.0, log_or_none(at[i][k]));
+      for (int i = 0; i < 3; ++i) logs[k] += std::max(-50.0, log_or_none(mix[i].at[k]));
       least = std::min(least, logs[k]);
     }
     for (int k = 0; k < k_corners; ++k) weight[k] = std::exp((least - logs[k]) * sharpness);
@@ -245,7 +303,8 @@ class BoxBounder {
       Double3 slope;
       for (const PairBound& p : pairs_[i]) {
         for (const double w : p.at) width = std::max(width, w);
-        for (int k = 0; k < 3; ++k) slope[k] = std::max(slope[k], std::abs(p.slope[k]));
+        const Double3 own = BoxBounder::slope(i, p.d);
+        for (int k = 0; k < 3; ++k) slope[k] = std::max(slope[k], std::abs(own[k]));
       }
       const int j = (i + 1) % 3, m = (i + 2) % 3;
       for (int k = 0; k < 3; ++k) cost[k] = std::max(cost[k], slope[k] * half[k] / width);
@@ -257,6 +316,7 @@ class BoxBounder {
   }
 
   std::span<const Double3> vertices_;
+  Double3 length_;  // the direction in which they spread most
   Axes base_;
   double volume_;
   const BoxBoundOptions& options_;
