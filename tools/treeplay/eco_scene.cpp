@@ -4,6 +4,7 @@
 #include "lib/formats/instance_codec.h"
 #include "lib/formats/random.h"
 #include "lib/formats/tree_file.h"
+#include "tools/treeplay/tree_levels.h"
 
 #include <algorithm>
 #include <array>
@@ -18,15 +19,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t k_most_levels = 12;
+
 // Where a type's mesh and materials are in the scene.
 struct TypePart {
-  std::vector<DrawRange> ranges;  // materials are the scene's
+  std::vector<std::vector<DrawRange>> levels;  // finest first; materials are the scene's
+  std::vector<float> coarser;                  // from where each but the first is drawn
 };
+
+// The levels that a forest goes by: the discrete ones, or of a schedule alone one at every doubling of the
+// distance.
+std::vector<LodLevel> levels_by_distance(const LodSpectra& spectra) {
+  if (!spectra.discrete.empty()) return spectra.discrete;
+  std::vector<LodLevel> levels;
+  if (spectra.schedule.empty() || !(spectra.near > 0)) return levels;
+  for (float d = 2 * spectra.near; d < 2 * spectra.far && levels.size() < k_most_levels; d *= 2) {
+    LodLevel level = level_of_distance(spectra, double{d});
+    level.distance = d;
+    levels.push_back(level);
+  }
+  return levels;
+}
+
+// Times the terrain's own size; beyond the last one all is haze.
+constexpr std::array<double, 7> k_surroundings{1.02, 1.1, 1.4, 2.5, 6, 18, 60};
 
 class EcosystemReader {
  public:
-  EcosystemReader(Scene& scene, const fs::path& path, Context& context)
-      : scene_(scene), path_(path), context_(context) {}
+  EcosystemReader(Scene& scene, const fs::path& path, bool levels, Context& context)
+      : scene_(scene), path_(path), with_levels_(levels), context_(context) {}
 
   Result<void> read() {
     const auto file = EcosystemFile::open(path_);
@@ -61,6 +82,13 @@ class EcosystemReader {
       scene_.images.push_back(used[i] ? read_texture(textures[i], i, file, context_) : std::nullopt);
   }
 
+  // `p` as vertices are: relative to the origin.
+  Float2 ground_texcoord(const Double3& p) const {
+    const double size = eco_->terrain.texture_size;
+    return {static_cast<float>((p.x + eco_->origin.x) / size),
+            static_cast<float>(-(p.z + eco_->origin.z) / size)};
+  }
+
   void add_terrain() {
     const Terrain& t = eco_->terrain;
     TreeGeometry& g = scene_.geometry;
@@ -83,17 +111,50 @@ class EcosystemReader {
       for (std::uint32_t c = 0; c < t.columns; ++c) {
         const Double3 p = position(c, r);
         const Double3 n = normalized(normals[std::size_t{r} * t.columns + c]);
-        g.vertices.push_back({to_float(p),
-                              to_float(n.y < 0 ? -n : n),
-                              {static_cast<float>((p.x + eco_->origin.x) / double{t.texture_size}),
-                               static_cast<float>(-(p.z + eco_->origin.z) / double{t.texture_size})}});
+        g.vertices.push_back({to_float(p), to_float(n.y < 0 ? -n : n), ground_texcoord(p)});
       }
+    if (t.columns > 0) add_surroundings(first);
     g.ranges.push_back({DrawPart::ground, t.material, first_index,
                         static_cast<std::uint32_t>(g.indices.size()) - first_index});
     if (t.columns == 0) g.ranges.pop_back(), group.range_count = 0;
     group.instance_count = 1;
     scene_.copies.push_back(DrawCopy{});
     scene_.groups.push_back(group);
+  }
+
+  // The vertices along the border, once round.
+  std::vector<std::uint32_t> border() const {
+    const Terrain& t = eco_->terrain;
+    std::vector<std::uint32_t> ring;
+    for (std::uint32_t c = 0; c + 1 < t.columns; ++c) ring.push_back(c);
+    for (std::uint32_t r = 0; r + 1 < t.rows; ++r) ring.push_back(r * t.columns + t.columns - 1);
+    for (std::uint32_t c = t.columns - 1; c > 0; --c) ring.push_back((t.rows - 1) * t.columns + c);
+    for (std::uint32_t r = t.rows - 1; r > 0; --r) ring.push_back(r * t.columns);
+    return ring;
+  }
+
+  // A terrain that ends in mid-air looks like a slice of cake: it goes on, ever more level, into the haze.
+  void add_surroundings(std::uint32_t first) {
+    TreeGeometry& g = scene_.geometry;
+    const std::vector<std::uint32_t> ring = border();
+    const auto n = static_cast<std::uint32_t>(ring.size());
+    Double3 middle;
+    for (const std::uint32_t i : ring) middle += to_double(g.vertices[first + i].position) / n;
+    const auto begin = static_cast<std::uint32_t>(g.vertices.size());
+    for (const double factor : k_surroundings)
+      for (const std::uint32_t i : ring) {
+        const Double3 p = to_double(g.vertices[first + i].position), out = middle + (p - middle) * factor;
+        // Half as high above the middle at twice the distance, and so on.
+        const Double3 at{out.x, middle.y + (p.y - middle.y) / (factor * factor), out.z};
+        g.vertices.push_back({to_float(at), {0, 1, 0}, ground_texcoord(at)});
+      }
+    for (std::uint32_t k = 0; k < k_surroundings.size(); ++k)
+      for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t j = (i + 1) % n, outer = begin + k * n;
+        const auto inner = [&](std::uint32_t v) { return k == 0 ? first + ring[v] : outer - n + v; };
+        for (const std::uint32_t v : {inner(i), inner(j), outer + j, inner(i), outer + j, outer + i})
+          g.indices.push_back(v);
+      }
   }
 
   Result<void> add_type(const TreeType& type) {
@@ -106,26 +167,47 @@ class EcosystemReader {
     auto tree = file->load();
     if (!tree) return std::unexpected(tree.error());
     if (type.packed.empty()) context_.read(path, true);
-    TreeGeometry mesh = make_geometry(*tree);
     const auto first_material = static_cast<std::uint32_t>(scene_.materials.size());
     scene_.materials.insert(scene_.materials.end(), tree->materials.begin(), tree->materials.end());
     take_textures(tree->textures, scene_.materials, first_material, type.packed.empty() ? path : path_);
-    TreeGeometry& g = scene_.geometry;
-    const auto first_vertex = static_cast<std::uint32_t>(g.vertices.size());
-    const auto first_index = static_cast<std::uint32_t>(g.indices.size());
+    std::shared_ptr<const TreeLevels> levels;
+    if (with_levels_) {
+      auto loaded = TreeLevels::load(*file, *tree);
+      if (!loaded) return std::unexpected(loaded.error());
+      levels = std::move(*loaded);
+    }
+    const std::vector<LodLevel> coarser =
+        levels ? levels_by_distance(levels->spectra()) : std::vector<LodLevel>();
+    TreeGeometry mesh = coarser.empty() ? make_geometry(*tree) : levels->geometry();
+    const auto first_vertex = static_cast<std::uint32_t>(scene_.geometry.vertices.size());
     for (DrawVertex v : mesh.vertices) {
       v.position = to_float(mesh.origin + to_double(v.position));
-      g.vertices.push_back(v);
+      scene_.geometry.vertices.push_back(v);
     }
-    for (const std::uint32_t i : mesh.indices) g.indices.push_back(first_vertex + i);
     TypePart part;
-    for (DrawRange r : mesh.ranges) {
-      r.first_index += first_index;
-      if (r.material != k_none) r.material += first_material;
-      part.ranges.push_back(r);
+    part.levels.push_back(add_triangles(mesh, first_vertex, first_material));
+    for (const LodLevel& level : coarser) {
+      levels->take(level, mesh);
+      part.levels.push_back(add_triangles(mesh, first_vertex, first_material));
+      part.coarser.push_back(level.distance);
     }
     parts_.push_back(std::move(part));
     return {};
+  }
+
+  // Appends the indices of a mesh whose vertices are there already; answers its ranges.
+  std::vector<DrawRange> add_triangles(const TreeGeometry& mesh, std::uint32_t first_vertex,
+                                       std::uint32_t first_material) {
+    TreeGeometry& g = scene_.geometry;
+    const auto first_index = static_cast<std::uint32_t>(g.indices.size());
+    for (const std::uint32_t i : mesh.indices) g.indices.push_back(first_vertex + i);
+    std::vector<DrawRange> ranges;
+    for (DrawRange r : mesh.ranges) {
+      r.first_index += first_index;
+      if (r.material != k_none) r.material += first_material;
+      ranges.push_back(r);
+    }
+    return ranges;
   }
 
   static DrawCopy copy_of(const Instance& i, const Double3& origin) {
@@ -154,17 +236,22 @@ class EcosystemReader {
     for (const auto& [key, members] : groups) {
       const auto& [type, trunk, leaf] = key;
       TreeGeometry& g = scene_.geometry;
-      DrawGroup group{.first_range = static_cast<std::uint32_t>(g.ranges.size()),
-                      .first_copy = static_cast<std::uint32_t>(scene_.copies.size()),
-                      .instance_count = static_cast<std::uint32_t>(members.size())};
-      for (DrawRange r : parts_[type].ranges) {
-        if (r.part == DrawPart::trunk && trunk != k_none) r.material = trunk;
-        if (r.part == DrawPart::leaves && leaf != k_none) r.material = leaf;
-        g.ranges.push_back(r);
-        ++group.range_count;
-        group.triangles += r.index_count / 3;
-      }
+      const auto add_group = [&](std::size_t level) {
+        DrawGroup group{.first_range = static_cast<std::uint32_t>(g.ranges.size()),
+                        .first_copy = static_cast<std::uint32_t>(scene_.copies.size())};
+        for (DrawRange r : parts_[type].levels[level]) {
+          if (r.part == DrawPart::trunk && trunk != k_none) r.material = trunk;
+          if (r.part == DrawPart::leaves && leaf != k_none) r.material = leaf;
+          g.ranges.push_back(r);
+          ++group.range_count;
+          group.triangles += r.index_count / 3;
+        }
+        scene_.groups.push_back(group);
+      };
       const auto number = static_cast<std::uint32_t>(scene_.groups.size());
+      for (std::size_t level = 0; level < parts_[type].levels.size(); ++level) add_group(level);
+      scene_.groups[number].instance_count = static_cast<std::uint32_t>(members.size());
+      scene_.groups[number].coarser = parts_[type].coarser;
       for (const auto& [block, copy] : members) {
         auto& of_block = runs[block];
         const auto at = static_cast<std::uint32_t>(scene_.copies.size());
@@ -172,7 +259,6 @@ class EcosystemReader {
         ++of_block.back().count;
         scene_.copies.push_back(copy);
       }
-      scene_.groups.push_back(group);
     }
     for (const auto& of_block : runs) {
       scene_.first_run.push_back(static_cast<std::uint32_t>(scene_.runs.size()));
@@ -183,6 +269,7 @@ class EcosystemReader {
 
   Scene& scene_;
   fs::path path_;
+  bool with_levels_ = false;
   Context& context_;
   const Ecosystem* eco_ = nullptr;
   std::vector<TypePart> parts_;
@@ -192,8 +279,8 @@ constexpr std::size_t k_cloud_copies = 4000, k_cloud_triangles = 60;  // enough 
 
 }  // namespace
 
-Result<void> take_ecosystem(Scene& scene, const fs::path& path, Context& context) {
-  return EcosystemReader(scene, path, context).read();
+Result<void> take_ecosystem(Scene& scene, const fs::path& path, bool levels, Context& context) {
+  return EcosystemReader(scene, path, levels, context).read();
 }
 
 SkyLight forest_sky(const Scene& scene) {

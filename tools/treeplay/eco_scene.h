@@ -5,8 +5,9 @@
 
 namespace copse::treeplay {
 
-// Reads the ecosystem and the trees that it names or holds. Precondition: an .eco file.
-Result<void> take_ecosystem(Scene& scene, const std::filesystem::path& path, Context& context);
+// Reads the ecosystem and the trees that it names or holds, with `levels` their levels of detail as well.
+// Precondition: an .eco file.
+Result<void> take_ecosystem(Scene& scene, const std::filesystem::path& path, bool levels, Context& context);
 
 // The light of the sky in a whole forest: of a cloud with as much leaf in each place, not of every leaf.
 SkyLight forest_sky(const Scene& scene);

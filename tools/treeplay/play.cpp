@@ -124,6 +124,23 @@ ToolInfo info() {
                      {"samples a pixel", 256, "samples"}}};
 }
 
+namespace {
+
+// Trees of an ecosystem go by distance, each by the levels that its file has; --level 0 is full detail.
+bool wants_levels(const Options& options, bool window) {
+  if (options.input.extension() == ".eco") return !options.detail.level;
+  return window || options.detail.needs_levels();
+}
+
+Result<void> check_detail(const Scene& scene, const Options& options) {
+  if (!scene.eco || !options.detail.names_one() || options.detail.level == std::uint64_t{0}) return {};
+  return fail(Fault::usage, options.input.string(),
+              "is an ecosystem, whose trees take their levels by distance",
+              "leave the level out, or draw all in full detail by --level 0");
+}
+
+}  // namespace
+
 Result<void> run(const Options& options, Context& context) {
   auto plan = understand(options);
   if (!plan) return std::unexpected(plan.error());
@@ -134,11 +151,15 @@ Result<void> run(const Options& options, Context& context) {
                 "write pictures with --frames NAME.png, or only measure with --headless");
   }
   plan->settings.lights = window || plan->look.lit;
-  const bool levels = window || options.detail.needs_levels();
-  const auto scene = load_scene(options.input, plan->settings.lights, levels, context);
+  const auto scene = load_scene(options.input, plan->settings.lights, wants_levels(options, window), context);
   if (!scene) return std::unexpected(scene.error());
-  auto choice = LevelChoice::make(scene->levels, options.detail, options.input);
+  if (auto fits = check_detail(*scene, options); !fits) return fits;
+  auto choice = LevelChoice::make(scene->levels, scene->eco ? DetailWish{} : options.detail, options.input);
   if (!choice) return std::unexpected(choice.error());
+  if (plan->look.show != Show::surface && scene->eco) {
+    return fail(Fault::usage, options.input.string(), "is an ecosystem, of which surfaces alone are drawn",
+                "leave --show out, or name one of its trees");
+  }
   if (plan->look.show != Show::surface && !scene->skeleton) {
     return scene->is_tree
                ? fail(Fault::usage, options.input.string(), "has no hierarchy, lines or leaf groups",

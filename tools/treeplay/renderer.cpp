@@ -15,6 +15,7 @@ enum Unit : int { unit_image, unit_shadow_map, unit_shadow_depth, unit_sky, unit
 // A tile's buffers hold at most this many fragments: 4 samples of 8 bytes each make that 200 MB.
 constexpr std::int64_t k_tile_fragments = 6'500'000;
 constexpr float k_ground_reach = 40;  // times the model's size; all haze long before
+constexpr float k_haze = 10;          // of a forest, times its size
 
 Backdrop backdrop_of(const Look& look) {
   if (look.backdrop != Backdrop::automatic) return look.backdrop;
@@ -202,6 +203,24 @@ FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int 
   return plan;
 }
 
+// A run in pieces of one level each: a copy of half the size looks at 10 m as the tree itself does at 20 m.
+void Renderer::take_run(const CopyRun& run, const Double3& eye, std::vector<CopyRun>& runs) const {
+  const std::vector<float>& coarser = scene_.groups[run.group].coarser;
+  if (coarser.empty()) return runs.push_back(run);
+  const std::size_t begin = runs.size();
+  for (std::uint32_t c = run.first; c < run.first + run.count; ++c) {
+    const DrawCopy& copy = scene_.copies[c];
+    const auto& [x, y, z] = copy.rows;
+    const double scale = length(Double3{double{x.x}, double{y.x}, double{z.x}});
+    const double away = distance(eye, {double{x.w}, double{y.w}, double{z.w}}) / scale;
+    const auto level = static_cast<std::uint32_t>(
+        std::upper_bound(coarser.begin(), coarser.end(), static_cast<float>(away)) - coarser.begin());
+    if (runs.size() == begin || runs.back().group != run.group + level)
+      runs.push_back({run.group + level, c, 0});
+    ++runs.back().count;
+  }
+}
+
 void Renderer::plan_ecosystem(const Camera& camera, FramePlan& plan) const {
   std::vector<std::uint32_t> blocks;
   CullCounts counts;
@@ -209,10 +228,12 @@ void Renderer::plan_ecosystem(const Camera& camera, FramePlan& plan) const {
   plan.plane_tests = counts.plane_tests;
   for (const std::uint32_t b : blocks) {
     for (std::uint32_t r = scene_.first_run[b]; r < scene_.first_run[b + 1]; ++r) {
-      const CopyRun& run = scene_.runs[r];
-      plan.runs.push_back(run);
-      plan.instances_drawn += run.count;
-      plan.triangles += run.count * scene_.groups[run.group].triangles;
+      const std::size_t before = plan.runs.size();
+      take_run(scene_.runs[r], camera.eye - scene_.geometry.origin, plan.runs);
+      for (std::size_t i = before; i < plan.runs.size(); ++i) {
+        plan.instances_drawn += plan.runs[i].count;
+        plan.triangles += plan.runs[i].count * scene_.groups[plan.runs[i].group].triangles;
+      }
     }
     plan.instances_tested += scene_.eco->blocks[b].count;
   }
@@ -329,7 +350,10 @@ void Renderer::draw_surfaces(const FramePlan& plan, const Tile& tile, float ghos
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   set_common(surfaces_.light_program(), tile);
-  surfaces_.draw_light(tile.clip, tile.offset, plan.look.lit, ghost);
+  // A forest goes on to the horizon; a tree stands on a ground that does (draw_backdrop).
+  const bool haze = scene_.eco && backdrop_of(plan.look) == Backdrop::sky;
+  surfaces_.draw_light(tile.clip, tile.offset, plan.look.lit, ghost,
+                       haze ? k_haze * static_cast<float>(scene_.size()) : 0);
   glDepthMask(GL_TRUE);
 }
 

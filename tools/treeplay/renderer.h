@@ -71,6 +71,7 @@ class Renderer {
   void draw_shadow_map();
   void take_level(const ShownLevel& shown);
   void plan_ecosystem(const Camera& camera, FramePlan& plan) const;
+  void take_run(const CopyRun& run, const Double3& eye, std::vector<CopyRun>& runs) const;
   Result<void> fit_tile_buffers(int width, int height);
   void set_common(const Program& program, const Tile& tile) const;
   void draw_tile(const FramePlan& plan, const Tile& tile);

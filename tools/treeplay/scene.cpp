@@ -144,7 +144,7 @@ Result<void> take_mesh(Scene& scene, const fs::path& path, Context& context) {
 }
 
 Result<void> take(Scene& scene, const fs::path& path, bool levels, Context& context) {
-  if (extension_of(path) == ".eco") return take_ecosystem(scene, path, context);
+  if (extension_of(path) == ".eco") return take_ecosystem(scene, path, levels, context);
   const auto taken =
       is_tree_file(path) ? take_tree(scene, path, levels, context) : take_mesh(scene, path, context);
   scene.copies.resize(1);

@@ -33,6 +33,9 @@ struct DrawGroup {
   std::uint32_t first_range = 0, range_count = 0;
   std::uint32_t first_copy = 0, instance_count = 0;
   std::uint64_t triangles = 0;  // of one copy
+  // Of an ecosystem: so many groups behind it draw the same copies at coarser levels, from these distances
+  // on (metres, of a tree at scale 1; ascending). Those have no copies of their own.
+  std::vector<float> coarser{};
 };
 
 // Copies of one group that stand in one block of an ecosystem.

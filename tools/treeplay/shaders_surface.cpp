@@ -50,6 +50,7 @@ uniform float thin;   // 1 for leaves: light shines through
 uniform bool lit;
 uniform float ghost;  // towards the backdrop, so that lines drawn over it stand out
 uniform bool ground;  // a terrain: bare colours get patches and grain
+uniform float haze_distance;  // metres at which haze has two thirds of what is seen; 0: there is none
 in vec3 v_local, v_normal, v_tint;
 in vec2 v_texcoord;
 out vec4 colour;
@@ -97,7 +98,17 @@ vec3 shade(vec3 albedo) {
 void main() {
   vec3 albedo = diffuse * v_tint * texture(image, v_texcoord).rgb;
   if (ground) albedo = soil(albedo);
-  vec3 c = lit ? tone(shade(albedo) + emission) : clamp(albedo + emission, 0.0, 1.0);
+  vec3 c = albedo + emission;
+  if (lit) {
+    c = shade(albedo) + emission;
+    vec3 relative = v_local + offset;
+    if (haze_distance > 0.0) {
+      float haze = 1.0 - exp(-pow(length(relative) / haze_distance, 1.5));
+      c = mix(c, sky(normalize(vec3(relative.x, 0.0, relative.z))), haze);
+    }
+    c = tone(c);
+  }
+  c = clamp(c, 0.0, 1.0);
   colour = vec4(mix(c, vec3(0.86), ghost), 1.0);
 }
 )";

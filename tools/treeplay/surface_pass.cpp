@@ -233,13 +233,15 @@ void SurfacePass::draw_coverage(const Mat4& clip, const Float3& offset, bool mul
   draw(coverage_, false);
 }
 
-void SurfacePass::draw_light(const Mat4& clip, const Float3& offset, bool lit, float ghost) const {
+void SurfacePass::draw_light(const Mat4& clip, const Float3& offset, bool lit, float ghost,
+                             float haze_distance) const {
   light_.use();
   light_.set("image", 0);
   light_.set("clip", clip);
   light_.set("offset", offset);
   light_.set("lit", lit ? 1 : 0);
   light_.set("ghost", ghost);
+  light_.set("haze_distance", haze_distance);
   draw(light_, true);
 }
 

@@ -24,7 +24,7 @@ class SurfacePass {
   // Depth first, so that the costly second pass runs once a fragment: `clip` takes camera-relative positions.
   void draw_coverage(const Mat4& clip, const Float3& offset, bool multisampled) const;
   // The program's uniforms of the common part must have been set. ghost: 0 as it is, 1 faded away.
-  void draw_light(const Mat4& clip, const Float3& offset, bool lit, float ghost) const;
+  void draw_light(const Mat4& clip, const Float3& offset, bool lit, float ghost, float haze_distance) const;
   const Program& light_program() const { return light_; }
 
  private:
