@@ -110,13 +110,15 @@ TEST(Populate, WhatFindsNoRoomIsRefusedOrLess) {
   a.spacing = 2;
   const auto refused = World().plant({a});
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().what.find("types[0]: 2000 asked for, no room"), std::string::npos);
+  EXPECT_NE(refused.error().what.find("types[0]: 2000 asked for, there is room for "), std::string::npos);
   a.fewer = true;
   const auto less = World().plant({a});
   ASSERT_TRUE(less);
   EXPECT_GT(less->instances.size(),
             170u);  // 4096 m2 / 4 pi m2 is 326; random packings hold about 0.55 of that
   EXPECT_EQ(less->instances.size() + less->types[0].missing, 2000u);
+  // What the refusal said there is room for is what finds room.
+  EXPECT_NE(refused.error().what.find(std::to_string(less->instances.size())), std::string::npos);
 }
 
 TEST(Populate, MapsAndRulesAreKept) {

@@ -8,6 +8,7 @@
 #include "tests/formats/tree_maker.h"
 #include "tests/tools/little_obj.h"
 #include "tests/tools/process.h"
+#include "tests/tools/rich_tree.h"
 
 #include <cmath>
 #include <fstream>
@@ -256,22 +257,6 @@ TreeFile packed_tree(const Ecosystem& eco, std::size_t type) {
   EXPECT_TRUE(tree) << tree.error().what;
   EXPECT_EQ(tree->verify(), std::vector<std::string>{});
   return *tree;
-}
-
-// A real tree with everything that tools add to one; full detail reaches 9 m, or 10 without hysteresis.
-void write_rich_tree(const TemporaryFolder& folder) {
-  write_text(folder.file("rich.obj"), little_tree_obj(6, 9, 40));
-  for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"treeprep", "rich.obj", "-o", "rich.stree"},
-        {"bvfit", "rich.stree", "-o", "rich.stree", "--per", "whole,groups", "--sway", "4"},
-        {"lodbake", "rich.stree", "-o", "rich.stree", "--continuous", "--discrete", "0.5,0.2", "--near", "10",
-         "--far", "40"}}) {
-    std::vector<std::string> with_paths = command;
-    for (std::string& word : with_paths)
-      if (word.starts_with("rich")) word = folder.file(word);
-    const Outcome o = run_process(with_paths);
-    ASSERT_EQ(o.status, 0) << command[0] << ": " << o.err;
-  }
 }
 
 TEST_F(Ecogen, PackingLeavesOutLevelsThatNoFrameReaches) {

@@ -147,6 +147,7 @@ class Builder {
       p.avoid = s.avoid;
       p.fewer = s.fewer;
       for (const PlantedSource& planted : s.planted) p.manual.push_back(instance_of(planted, s, ground));
+      tell_outside(p, ground);
       const std::pair<const std::optional<MapSource>*, const ValueMap**> maps[] = {
           {&s.scale_map, &p.scale_map},
           {&s.density, &p.rules.density},
@@ -163,6 +164,18 @@ class Builder {
       plans_.push_back(std::move(p));
     }
     return {};
+  }
+
+  void tell_outside(const TypePlan& p, const TerrainGround& ground) {
+    const auto outside = std::count_if(p.manual.begin(), p.manual.end(), [&](const Instance& i) {
+      return i.on_ground && !(i.position.x >= ground.x0() && i.position.x <= ground.x1() &&
+                              i.position.z >= ground.z0() && i.position.z <= ground.z1());
+    });
+    if (outside > 0)
+      context_.warn(
+          fmt::format("{}: {} by hand stand outside the terrain, at the height of its border; give them "
+                      "a y, or move them",
+                      p.name, outside));
   }
 
   // The types of a mix share its count as their maps share its density.

@@ -1,6 +1,7 @@
 #include "tools/ecogen/options.h"
 
 #include "lib/formats/ecosystem_file.h"
+#include "tools/common/option_values.h"
 
 #include <CLI/CLI.hpp>
 
@@ -48,7 +49,7 @@ void add_options(CLI::App& app, Options& o) {
   frames
       ->add_option("--view-range", o.view_range,
                    "metres; nothing is drawn farther away, whatever view_range its type has")
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(number_between(0, 1e9))
       ->type_name("M");
   CLI::Option_group* file = app.add_option_group("The file");
   file->add_flag("--pack", o.pack, "put trees and textures into it, instead of their names");

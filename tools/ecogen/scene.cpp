@@ -143,6 +143,14 @@ class Reader {
     s.texture_size = j.value("texture_size", 4.0);
   }
 
+  // u and v of a surface are x and z of the page.
+  static std::string as_written(std::string text) {
+    for (const auto& [theirs, ours] : {std::pair("knots_u", "knots_x"), {"knots_v", "knots_z"}})
+      for (std::size_t at = text.find(theirs); at != std::string::npos; at = text.find(theirs, at))
+        text.replace(at, std::string_view(theirs).size(), ours);
+    return text;
+  }
+
   static void nurbs(const Json& j, TerrainPlan& t) {
     const std::string path = "terrain.nurbs";
     if (j.contains("heights") == j.contains("points"))
@@ -183,7 +191,8 @@ class Reader {
     };
     n.knots_u = knots("knots_x", n.count_u, n.degree_u);
     n.knots_v = knots("knots_z", n.count_v, n.degree_v);
-    if (const std::string wrong = fault_of(n); !wrong.empty()) refuse_at(path, wrong, "mend the surface");
+    if (const std::string wrong = fault_of(n); !wrong.empty())
+      refuse_at(path, as_written(wrong), "mend the surface");
     (free ? t.surface : t.heights) = std::move(n);
   }
 

@@ -198,16 +198,14 @@ class Planter {
         failures = 0;
         continue;
       }
-      ++out_.types[t].missing;
-      if (!p.fewer)
-        return refuse("",
-                      fmt::format("{}: {} asked for, no room for more than {} at this spacing", p.name,
-                                  p.count, random_ones_[t].size()),
-                      "lower count or spacing, or set \"fewer\" to take what fits");
-      if (++failures < k_failures_in_a_row) continue;
-      out_.types[t].missing = p.count - random_ones_[t].size();
-      break;
+      if (++failures == k_failures_in_a_row) break;
     }
+    out_.types[t].missing = p.count - random_ones_[t].size();
+    if (out_.types[t].missing > 0 && !p.fewer)
+      return refuse("",
+                    fmt::format("{}: {} asked for, there is room for {} at this spacing", p.name, p.count,
+                                random_ones_[t].size()),
+                    "lower count or spacing, or set \"fewer\" to take what fits");
     return {};
   }
 
