@@ -197,4 +197,9 @@ std::uint32_t choose_discrete(const LodSpectra& spectra, double distance, std::u
   return level;
 }
 
+bool choose_impostor(const LodSpectra& spectra, double border, double distance, bool drawn) {
+  const double h = spectra.hysteresis;
+  return drawn ? !(distance < border * (1 - h)) && !std::isnan(distance) : distance > border * (1 + h);
+}
+
 }  // namespace copse

@@ -67,4 +67,8 @@ LodLevel level_of_distance(const LodSpectra& spectra, double distance);
 // of the borders.
 std::uint32_t choose_discrete(const LodSpectra& spectra, double distance, std::uint32_t current);
 
+// Whether the impostor that takes over at `border` metres is drawn, with the hysteresis of the spectra;
+// `drawn`: whether it was before.
+bool choose_impostor(const LodSpectra& spectra, double border, double distance, bool drawn);
+
 }  // namespace copse

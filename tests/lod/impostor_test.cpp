@@ -4,27 +4,19 @@
 #include "tests/measure/shapes_to_draw.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
 namespace copse {
 namespace {
 
-using Layout = ImpostorOptions::Layout;
+using Layout = ImpostorLayout;
 
 std::vector<Material> red() {
   std::vector<Material> m(1);
   m[0].diffuse = {1, 0, 0};
   return m;
-}
-
-TEST(Impostor, TheOctahedralMapGoesThereAndBack) {
-  for (const Double3& d : view_sphere(3).directions) {
-    const auto [u, v] = octahedral_place(d);
-    EXPECT_NEAR(distance(octahedral_direction(u, v), d), 0, 1e-12);
-  }
-  EXPECT_NEAR(distance(octahedral_direction(0, 0), {0, 1, 0}), 0, 1e-12);
-  EXPECT_TRUE(is_finite(octahedral_direction(1, 1)));
 }
 
 TEST(Impostor, OfASquareShowsItFromTheFrontAndNotFromTheSide) {
@@ -76,6 +68,50 @@ TEST(Impostor, OctahedralAtlasHasAViewACell) {
   EXPECT_EQ(i.views.size(), 16u);
   EXPECT_EQ(i.width, 32);
   EXPECT_EQ(i.height, 32);
+}
+
+TEST(Impostor, ViewsLieAsTheFileSaysTheyDo) {
+  for (const Double3& d : view_sphere(2).directions) {
+    const OrthographicView view = view_of_sphere({}, 1, d, 8);
+    const ImpostorFrame frame = impostor_frame(d);
+    EXPECT_NEAR(distance(frame.right, view.right), 0, 1e-12);
+    EXPECT_NEAR(distance(frame.up, view.up), 0, 1e-12);
+  }
+}
+
+TEST(Impostor, DrawnFromItsOwnViewsItIsThePictureThatWasTaken) {
+  const DrawnMesh mesh = square({0.2, 0.1, 0.3}, 0.5, 0);
+  const Impostor i = make_impostor(mesh, red(), {}, {.views = 6, .size = 48});
+  const std::vector<Material> materials = red();
+  const Looks looks{materials, {}};
+  double both = 0, either = 0;
+  for (const Double3& d : i.views) {
+    if (std::abs(d.z) < 0.5) continue;
+    const OrthographicView view = view_of_sphere(i.centre, i.radius, d, 48);
+    const Picture drawn = draw_impostor(i, view), real = draw_picture(mesh, looks, view, 3);
+    for (std::size_t p = 0; p < drawn.coverage.size(); ++p) {
+      both += std::min(drawn.coverage[p], real.coverage[p]);
+      either += std::max(drawn.coverage[p], real.coverage[p]);
+    }
+  }
+  EXPECT_GT(both / either, 0.97);
+}
+
+// Between the views depth puts things where they belong: a square off the middle is met where it is.
+TEST(Impostor, BetweenTheViewsDepthKeepsThingsInTheirPlaces) {
+  DrawnMesh mesh = square({0, 0, 1}, 0.3, 0);
+  append(mesh, square({0, 0, -1}, 0.3, 0));
+  const Impostor i = make_impostor(mesh, red(), {}, {.views = 8, .size = 64});
+  const Double3 between = normalized(i.views[27] + i.views[28]);
+  const OrthographicView view = view_of_sphere(i.centre, i.radius, between, 64);
+  const std::vector<Material> materials = red();
+  const Picture drawn = draw_impostor(i, view), real = draw_picture(mesh, {materials, {}}, view, 3);
+  double both = 0, either = 0;
+  for (std::size_t p = 0; p < drawn.coverage.size(); ++p) {
+    both += std::min(drawn.coverage[p], real.coverage[p]);
+    either += std::max(drawn.coverage[p], real.coverage[p]);
+  }
+  EXPECT_GT(both / std::max(either, 1e-9), 0.7);
 }
 
 TEST(Impostor, OfNothingIsTransparent) {

@@ -2,12 +2,15 @@
 
 #include "tests/lod/tube_tree.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace copse {
 namespace {
 
-std::vector<LimbRung> ladder_of(const Tree& tree) {
+std::vector<LimbRung> ladder_of(const Tree& tree, RemovalOrder order = RemovalOrder::silhouette) {
   const std::vector<Double3> centres = absolute_centres(tree);
   const PartTriangles trunk = trunk_triangles(tree);
   const std::vector<LimbChain> chains = limb_chains(tree);
@@ -16,7 +19,7 @@ std::vector<LimbRung> ladder_of(const Tree& tree) {
   for (const std::uint32_t s : chains[0].segments)
     full +=
         static_cast<std::uint32_t>(tree.first_triangle_of_segment(s + 1) - tree.first_triangle_of_segment(s));
-  return limb_ladder(shape, std::vector<std::uint8_t>(shape.ring_count()), full, 1.3);
+  return limb_ladder(shape, std::vector<std::uint8_t>(shape.ring_count()), full, 1.3, order);
 }
 
 TEST(LimbLadder, EndsInNothingAndHasNoFloor) {
@@ -40,6 +43,43 @@ TEST(LimbLadder, TrianglesFallAndEachSavingCostsMoreThanTheOneBefore) {
     const double then =
         (ladder[i - 1].cost - ladder[i - 2].cost) / (ladder[i - 2].triangles - ladder[i - 1].triangles);
     EXPECT_GE(now, then - 1e-12) << i;
+  }
+}
+
+// A winding stem that tapers and has one sharp bend.
+Tree winding() {
+  Tube tube;
+  std::uint32_t before = k_none;
+  for (int i = 0; i < 24; ++i) {
+    const double aside = i <= 15 ? 0 : 0.9 * (i - 15);
+    before = tube.add_ring({aside + 0.1 * std::sin(i * 1.9), i * 0.5, 0.1 * std::cos(i * 2.3)},
+                           0.4 - 0.015 * i, 12, before);
+  }
+  return tree_of(tube);
+}
+
+std::size_t with_inner_rings(const std::vector<LimbRung>& ladder) {
+  return static_cast<std::size_t>(
+      std::count_if(ladder.begin(), ladder.end(), [](const LimbRung& r) { return r.kept.size() > 2; }));
+}
+
+TEST(LimbLadder, ByAngleTheBendStaysLongest) {
+  for (const RemovalOrder order : {RemovalOrder::angle, RemovalOrder::projected_angle}) {
+    const std::vector<LimbRung> ladder = ladder_of(winding(), order);
+    ASSERT_GT(with_inner_rings(ladder), 1u);
+    for (const LimbRung& rung : ladder) {
+      if (rung.kept.size() > 2) {
+        EXPECT_TRUE(std::binary_search(rung.kept.begin(), rung.kept.end(), 15u));
+      }
+    }
+  }
+}
+
+TEST(LimbLadder, ByDiameterTheThinnestRingsGoFirst) {
+  const std::vector<LimbRung> ladder = ladder_of(winding(), RemovalOrder::diameter);
+  ASSERT_GT(with_inner_rings(ladder), 1u);
+  for (const LimbRung& rung : ladder) {
+    for (std::size_t i = 0; i + 1 < rung.kept.size(); ++i) EXPECT_EQ(rung.kept[i], i);
   }
 }
 

@@ -87,6 +87,21 @@ TEST(TrunkRadii, ALimbOutlivesWhatGrowsFromIt) {
   }
 }
 
+TEST(TrunkRadii, ByDiameterThinLimbsAreGoneBeforeThickOnesChange) {
+  const Tree tree = stem_with_twigs(8, 8, 20);
+  const Spectrum s = trunk_by_radii(tree, {.order = RemovalOrder::diameter});
+  const std::vector<LimbChain> limbs = limb_chains(tree);
+  std::uint32_t first_of_stem = k_none, last_of_twigs = 0;
+  for (const SpectrumElement& e : s.elements) {
+    const auto& stem = limbs[0].radii;
+    const bool in_stem = std::find(stem.begin(), stem.end(), e.radius) != stem.end();
+    if (in_stem) first_of_stem = std::min(first_of_stem, e.death);
+    if (!in_stem) last_of_twigs = std::max(last_of_twigs, e.death);
+  }
+  EXPECT_LE(last_of_twigs, first_of_stem);
+  EXPECT_EQ(s.counts[s.steps()], 0u);
+}
+
 TEST(TrunkRadii, WithoutAHierarchyThereIsFullDetailAlone) {
   Tree tree;
   tree.trunk.vertices = std::vector<Float3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

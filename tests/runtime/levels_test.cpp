@@ -151,6 +151,15 @@ TEST(Levels, HysteresisHoldsTheLevelInItsBand) {
   EXPECT_EQ(choose_discrete(s, std::nan(""), 2), 0u);
 }
 
+TEST(Levels, TheImpostorHasTheSameHysteresis) {
+  const LodSpectra s = two();
+  EXPECT_FALSE(choose_impostor(s, 2000, 2150, false));
+  EXPECT_TRUE(choose_impostor(s, 2000, 2250, false));
+  EXPECT_TRUE(choose_impostor(s, 2000, 1850, true));
+  EXPECT_FALSE(choose_impostor(s, 2000, 1750, true));
+  EXPECT_FALSE(choose_impostor(s, 2000, std::nan(""), true));
+}
+
 TEST(Levels, WithoutAScheduleTheDiscreteLevelsAreChosenFrom) {
   LodSpectra s = two();
   const LodLevel full = s.schedule.front();

@@ -1,3 +1,4 @@
+#include "lib/formats/import/image.h"
 #include "lib/formats/import/import.h"
 #include "lib/formats/spectrum_file.h"
 #include "lib/formats/tree_file.h"
@@ -92,6 +93,56 @@ TEST_F(Lodbake, TreedumpListsTheLevelsAndTheSpectra) {
   EXPECT_EQ(json["levels"]["spectra"][0]["method"], "radii");
 }
 
+TEST_F(Lodbake, AnImpostorIsBakedMeasuredListedExportedAndLeftOutAgain) {
+  ASSERT_EQ(
+      bake({"--impostor", "32", "--impostor-views", "4", "--views", "12", "--report", folder_.file("r.json")})
+          .status,
+      0);
+  double iou = 0;
+  const auto json = nlohmann::json::parse(read_text(folder_.path() / "r.json"));
+  for (const auto& table : json["tables"])
+    if (table["name"] == "impostor") iou = std::stod(table["rows"][0][5].get<std::string>());
+  EXPECT_GT(iou, 0.4);
+  EXPECT_NE(run_process({"treedump", out_}).out.find("16 views from everywhere of 32 x 32 pixels"),
+            std::string::npos);
+  ASSERT_EQ(run_process({"treedump", out_, "--export", folder_.file("atlas.png")}).status, 0);
+  for (const char* name : {"atlas.png", "atlas.normal.png"}) {
+    const auto image = read_image(folder_.path() / name);
+    ASSERT_TRUE(image.has_value()) << name;
+    EXPECT_EQ(image->width, 128);
+    EXPECT_EQ(image->height, 128);
+    EXPECT_TRUE(image->has_alpha);
+  }
+  EXPECT_EQ(run_process({"treedump", out_, "--verify", "-q"}).status, 0);
+  const std::string baked = out_;
+  ASSERT_EQ(run_process({"lodbake", baked, "-o", folder_.file("again.stree")}).status, 0);
+  EXPECT_EQ(run_process({"treedump", folder_.file("again.stree"), "--export", folder_.file("no.png")}).status,
+            1);
+}
+
+TEST_F(Lodbake, RingsGoInTheOrderThatIsAskedFor) {
+  for (const char* order : {"silhouette", "angle", "projected-angle", "diameter"}) {
+    ASSERT_EQ(bake({"--removal", order, "--continuous"}).status, 0) << order;
+    EXPECT_LE(triangles({"--ratio", "0.2"}), 236u / 5) << order;
+  }
+  EXPECT_EQ(bake({"--removal", "magic"}).status, 2);
+}
+
+TEST_F(Lodbake, TheEstimatesOfLinesAndPointsStayBelowTheThesis) {
+  const std::string mesh = folder_.file("bush.glb"), report = folder_.file("r.json");
+  ASSERT_EQ(run_process({"treegrow", "bush", "-o", mesh, "--triangles", "2000", "-q"}).status, 0);
+  ASSERT_EQ(run_process({"treeprep", mesh, "-o", tree_, "-q"}).status, 0);
+  ASSERT_EQ(bake({"--lines-points", "--views", "12", "--report", report}).status, 0);
+  const auto json = nlohmann::json::parse(read_text(report));
+  int found = 0;
+  for (const auto& e : json["errors"]) {
+    if (!e["name"].get<std::string>().starts_with("projected")) continue;
+    ++found;
+    EXPECT_LT(e["value"], 0.15) << e["name"];
+  }
+  EXPECT_EQ(found, 3);
+}
+
 TEST_F(Lodbake, TheTreeItselfIsCopiedUntouched) {
   ASSERT_EQ(bake({}).status, 0);
   const Outcome diff = run_process({"treedump", tree_, out_, "--diff", "-q"});
@@ -104,10 +155,10 @@ TEST_F(Lodbake, TheTreeItselfIsCopiedUntouched) {
 }
 
 TEST_F(Lodbake, DiffTellsOtherLevelsApart) {
-  ASSERT_EQ(bake({"--discrete", "0.5,0.1"}).status, 0);
+  ASSERT_EQ(bake({"--discrete", "0.5,0.1", "--continuous"}).status, 0);
   const std::string before = folder_.file("before.stree");
   std::filesystem::rename(out_, before);
-  ASSERT_EQ(bake({"--discrete", "0.4,0.1"}).status, 0);
+  ASSERT_EQ(bake({"--discrete", "0.4,0.1", "--continuous"}).status, 0);
   const Outcome diff = run_process({"treedump", before, out_, "--diff", "-q"});
   EXPECT_EQ(diff.status, 1);
   EXPECT_NE(diff.out.find("LSLD (levels of detail): "), std::string::npos) << diff.out;

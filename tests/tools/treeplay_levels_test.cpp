@@ -110,6 +110,22 @@ TEST_F(TreeplayLevels, InBetweenTheTrianglesFallWithEveryMetre) {
   EXPECT_LT(std::stoi(triangles[0]), std::stoi(triangles[5]));
 }
 
+TEST_F(TreeplayLevels, BehindTheLastLevelComesTheImpostor) {
+  ASSERT_EQ(bake({"--impostor", "64"}).status, 0);
+  const Image full = flat(levels_, {}), pictures = flat(levels_, {"--level", "3"});
+  int both = 0, either = 0;
+  for (std::size_t p = 0; p < full.rgba.size() && p < pictures.rgba.size(); p += 4) {
+    const bool a = full.rgba[p + 1] > 20, b = pictures.rgba[p + 1] > 20;
+    both += a && b, either += a || b;
+  }
+  EXPECT_GT(both, 0.5 * either);
+  EXPECT_EQ(column({"--level", "3"}, "triangles"), (std::vector<std::string>{"2"}));
+  const auto levels =
+      column({"--lod", "auto", "--path", "linear", "--camera", "0,6,600,0,6,0", "--count", "3"}, "level");
+  EXPECT_EQ(levels.front(), "3");
+  EXPECT_NE(levels.back(), "3");
+}
+
 TEST_F(TreeplayLevels, WhatTheFileCannotDoIsSaidInOneLine) {
   const auto says = [&](const std::string& file, const std::vector<std::string>& more, int status,
                         const std::string& text) {

@@ -26,11 +26,14 @@ std::vector<LodLevel> wanted(const Options& options, const LodSpectra& spectra) 
 }
 
 double distance_of(double share, double height) {
-  const double pixels = k_full_pixels * std::sqrt(std::max(share, 1e-6));
-  return height * k_screen_lines / (2 * std::tan(k_field_of_view / 2)) / pixels;
+  return distance_for_pixels(height, k_full_pixels * std::sqrt(std::max(share, 1e-6)));
 }
 
 }  // namespace
+
+double distance_for_pixels(double metres, double pixels) {
+  return metres * k_screen_lines / (2 * std::tan(k_field_of_view / 2)) / pixels;
+}
 
 void choose_levels(const Options& options, double height, LodSpectra& spectra) {
   if (spectra.schedule.empty()) return;

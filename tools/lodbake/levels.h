@@ -6,6 +6,9 @@
 
 namespace copse::lodbake {
 
+// From how far `metres` take up so many pixels on that screen.
+double distance_for_pixels(double metres, double pixels);
+
 // Fills discrete, near, far and hysteresis of `spectra`, whose schedule is there. Distances that were not
 // given are those at which the tree, `height` metres high, is 1024 pixels x sqrt(share of its triangles) high
 // on a screen of 1080 lines that sees 60 degrees: pixels and triangles fall alike.

@@ -22,7 +22,8 @@ ToolInfo info() {
                 "three levels to switch between, and everything in between"},
                {"lodbake oak.stree -o small.stree --discrete-error 0.05,0.2 --encode small --report oak.json",
                 "levels by error in metres, as few bytes as possible"}},
-          .limits = {{"levels of --discrete", k_max_discrete, "levels"}}};
+          .limits = {{"levels of --discrete", k_max_discrete, "levels"},
+                     {"side of an impostor's atlas", k_max_impostor_side, "pixels"}}};
 }
 
 namespace {
@@ -100,6 +101,15 @@ void add_options(CLI::App& app, Options& options) {
                           "by radii (rings, sides, ribbons) or by edge collapses",
                           {{"radii", TrunkMethod::radii}, {"edges", TrunkMethod::edges}})
       ->type_name("radii|edges");
+  add_choice<RemovalOrder>(
+      *methods, "--removal", options.removal,
+      "of --trunk radii: which rings go first, by what the silhouette loses, by the angle "
+      "of the axis there (real, or as level views see it), or the thinnest",
+      {{"silhouette", RemovalOrder::silhouette},
+       {"angle", RemovalOrder::angle},
+       {"projected-angle", RemovalOrder::projected_angle},
+       {"diameter", RemovalOrder::diameter}})
+      ->type_name("silhouette|angle|projected-angle|diameter");
   add_choice<FoliageMethod>(
       *methods, "--foliage", options.foliage,
       "leaves become one bigger, two at a time, or vanish in stratified random order, cell by cell",
@@ -112,6 +122,26 @@ void add_options(CLI::App& app, Options& options) {
       ->check(whole_number_from(1, 1 << 20))
       ->type_name("N")
       ->capture_default_str();
+  CLI::Option* impostor =
+      methods
+          ->add_option("--impostor", options.impostor,
+                       "behind the last level the tree as pictures, so many pixels a side each")
+          ->check(whole_number_from(8, 1024))
+          ->type_name("SIZE")
+          ->default_str("");
+  methods
+      ->add_option("--impostor-views", options.impostor_views,
+                   "views along a side of the atlas, or round the trunk of a billboard")
+      ->check(whole_number_from(1, k_max_impostor_views))
+      ->type_name("N")
+      ->needs(impostor)
+      ->capture_default_str();
+  add_choice<ImpostorLayout>(
+      *methods, "--impostor-layout", options.impostor_layout,
+      "views from everywhere (octahedral), or level ones round the trunk (billboard)",
+      {{"octahedral", ImpostorLayout::octahedral}, {"billboard", ImpostorLayout::billboard}})
+      ->type_name("octahedral|billboard")
+      ->needs(impostor);
   methods->add_flag("--lines-points", options.lines_points,
                     "refuse a tree that lacks what lines and points are drawn from (segments by diameter, "
                     "accumulated lengths, leaf centres, groups in order)");
@@ -164,6 +194,9 @@ Result<void> check(const Options& options) {
                    "let each be farther than the one before by more than both bands of --hysteresis");
     before = *border;
   }
+  if (static_cast<std::uint32_t>(options.impostor * options.impostor_views) > k_max_impostor_side)
+    return usage("--impostor: the atlas is too large",
+                 fmt::format("let SIZE times --impostor-views be at most {}", k_max_impostor_side));
   return {};
 }
 

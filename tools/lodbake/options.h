@@ -1,6 +1,8 @@
 // The command line of lodbake.
 #pragma once
 
+#include "lib/analysis/lod/limb_ladder.h"
+#include "lib/formats/impostors.h"
 #include "lib/formats/result.h"
 #include "lib/formats/spectrum_file.h"
 #include "tools/common/tool.h"
@@ -25,9 +27,13 @@ struct Options {
   std::uint64_t min_triangles = 0;
   double hysteresis = 10;  // percent
   TrunkMethod trunk = TrunkMethod::radii;
+  RemovalOrder removal = RemovalOrder::silhouette;
   FoliageMethod foliage = FoliageMethod::collapse;
   std::uint32_t cells = 256;  // of --foliage prune, at most
   bool lines_points = false;
+  int impostor = 0;  // pixels of a view's side; 0: none
+  int impostor_views = 8;
+  ImpostorLayout impostor_layout = ImpostorLayout::octahedral;
   Division division = Division::picture;
   SpectrumCodingOptions coding;
   std::optional<double> max_error;  // metres

@@ -4,11 +4,14 @@
 #include "lib/analysis/lod/floating_leaves.h"
 #include "lib/formats/spectrum_file.h"
 #include "lib/formats/tree_file.h"
+#include "tools/lodbake/column_meanings.h"
+#include "tools/lodbake/impostor_stage.h"
 #include "tools/lodbake/level_pictures.h"
 #include "tools/lodbake/levels.h"
 #include "tools/lodbake/looks.h"
 #include "tools/lodbake/measure_stage.h"
 #include "tools/lodbake/packing.h"
+#include "tools/lodbake/projections.h"
 #include "tools/lodbake/spectra.h"
 
 #include <algorithm>
@@ -27,6 +30,12 @@ Result<TreeFile> open_tree(const Options& options) {
   const std::filesystem::path tree = std::filesystem::path(options.input).replace_extension(".stree");
   return refuse(options.input.string(), "is no .tree or .stree",
                 fmt::format("run treeprep first: treeprep {} -o {}", options.input.string(), tree.string()));
+}
+
+Result<Tree> load(const TreeFile& file, Context& context) {
+  Stage stage = context.stage("read");
+  stage.items(std::uint64_t{file.counts().trunk_triangles} + file.counts().leaf_triangles, "triangles");
+  return file.load();
 }
 
 Result<void> check_output(const Options& options, const TreeFile& file) {
@@ -90,8 +99,7 @@ void report_levels(const Tree& tree, const LodSpectra& spectra, Report& report) 
   report.tables.push_back(std::move(table));
   Curve curve{.name = "error bound", .x = "triangles", .y = "metres", .points = {}};
   for (const LodLevel& l : spectra.schedule)
-    curve.points.push_back(
-        {.label = fmt::format("{}", l.triangles), .x = static_cast<double>(l.triangles), .y = l.error});
+    curve.points.push_back({.label = {}, .x = static_cast<double>(l.triangles), .y = l.error});
   report.curves.push_back(std::move(curve));
 }
 
@@ -117,9 +125,11 @@ Result<void> write(const Options& options, const TreeFile& file, const std::opti
   const LodSpectra few = options.continuous ? LodSpectra{} : discrete_spectra(baked.spectra);
   const auto errors = put_spectra(writer, options.continuous ? baked.spectra : few, options.coding);
   if (!errors) return std::unexpected(errors.error());
+  for (const char* cells : {"FCEL", "FORD", "FVWS", "FVTR", "FVIS", "FPAR"}) writer.remove(cells);
   if (baked.cells) {
     if (auto done = put_foliage_cells(writer, *baked.cells); !done) return done;
   }
+  if (auto done = put_impostor(writer, baked.impostor); !done) return done;
   const auto bytes = writer.finish();
   if (!bytes) return std::unexpected(bytes.error());
   stage.items(bytes->size(), "bytes");
@@ -142,7 +152,7 @@ Result<void> run(const Options& options, Context& context) {
   auto file = open_tree(options);
   if (!file) return std::unexpected(file.error());
   if (auto right = check_output(options, *file); !right) return right;
-  auto tree = file->load();
+  auto tree = load(*file, context);
   if (!tree) return std::unexpected(tree.error());
   const auto packed = pack_base(options, *file, *tree, context);
   if (!packed) return std::unexpected(packed.error());
@@ -151,15 +161,27 @@ Result<void> run(const Options& options, Context& context) {
   auto baked = make_spectra(*tree, looks.looks(), options, context);
   if (!baked) return std::unexpected(baked.error());
   LodSpectra* spectra = &baked->spectra;
-  choose_levels(options, tree->header.bounds.extent().y, *spectra);
-  report_levels(*tree, *spectra, context.report());
+  {
+    Stage stage = context.stage("levels");
+    choose_levels(options, tree->header.bounds.extent().y, *spectra);
+    report_levels(*tree, *spectra, context.report());
+    stage.items(spectra->discrete.size(), "levels");
+  }
+  if (options.lines_points) report_projections(*tree, options.views, context);
+  if (options.impostor > 0) {
+    auto impostor = bake_impostor(*spectra, looks, options, context);
+    if (!impostor) return std::unexpected(impostor.error());
+    baked->impostor = std::move(*impostor);
+  }
   const std::vector<LodLevel> levels = with_full_detail(*spectra);
   if (options.measure) measure_levels(*spectra, looks.looks(), levels, options, context);
   if (options.sweep) sweep(*tree, *spectra, looks.looks(), options, context);
   if (!context.options().html.empty()) {
+    Stage stage = context.stage("pictures");
     auto strip = level_strip(*spectra, looks.looks(), levels, labels(levels));
     if (!strip) return std::unexpected(strip.error());
     context.report().pictures.push_back(std::move(*strip));
+    context.report().tables.push_back(column_meanings(context.report().tables));
   }
   if (auto within = check_errors(options, *spectra); !within) return within;
   return write(options, *file, *packed, *baked, context);

@@ -28,7 +28,8 @@ Spectrum trunk_by_edges(const Tree& tree, const Options& options) {
 Spectrum trunk_spectrum(const Tree& tree, const Options& options, Context& context) {
   Stage stage = context.stage("trunk");
   stage.items(tree.trunk.triangles.size(), "triangles");
-  return options.trunk == TrunkMethod::edges ? trunk_by_edges(tree, options) : trunk_by_radii(tree);
+  return options.trunk == TrunkMethod::edges ? trunk_by_edges(tree, options)
+                                             : trunk_by_radii(tree, {.order = options.removal});
 }
 
 Spectrum leaf_spectrum(const Tree& tree, const Looks& looks, const Options& options, Context& context,

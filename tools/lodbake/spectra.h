@@ -3,6 +3,7 @@
 
 #include "lib/analysis/measure/picture.h"
 #include "lib/formats/foliage_cells.h"
+#include "lib/formats/impostors.h"
 #include "lib/formats/spectrum.h"
 #include "lib/formats/tree.h"
 #include "tools/common/tool.h"
@@ -15,6 +16,7 @@ namespace copse::lodbake {
 struct BakedSpectra {
   LodSpectra spectra;
   std::optional<FoliageCells> cells;  // of --foliage prune
+  ImpostorAtlas impostor;             // of --impostor
 };
 
 // Trunk and leaves, and the schedule that divides triangles between them.

@@ -3,10 +3,12 @@
 #include "lib/analysis/lod/foliage_pruning.h"
 #include "lib/analysis/measure/lod_quality.h"
 #include "lib/runtime/levels.h"
+#include "tools/lodbake/gltfpack.h"
 #include "tools/lodbake/level_pictures.h"
 #include "tools/lodbake/measure_stage.h"
 
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <meshoptimizer.h>
@@ -78,6 +80,9 @@ void sweep(const Tree& tree, const LodSpectra& spectra, const Looks& looks, cons
       tree,
       prune_foliage(tree, looks, {.cells = options.cells, .views = 12, .seed = context.options().seed}));
   pruned.schedule = couple(pruned, nullptr, nullptr);
+  const std::optional<Gltfpack> gltfpack = Gltfpack::find(tree);
+  if (!gltfpack)
+    context.warn("--sweep: gltfpack is not installed (npm install gltfpack), its rows are left out");
   Table table{.name = "sweep",
               .columns = {"Method", "Share", "Triangles", "Area", "Coverage", "Silhouette IoU", "RMSE",
                           "SSIM", "Hull growth", "Pixels"},
@@ -100,6 +105,10 @@ void sweep(const Tree& tree, const LodSpectra& spectra, const Looks& looks, cons
     add("copse, leaves pruned", drawn_level(pruned, level_of_triangles(pruned, target)));
     add("meshoptimizer, one mesh", peer(spectra, target, true));
     add("meshoptimizer, each part", peer(spectra, target, false));
+    for (const bool aggressive : {false, true}) {
+      const auto level = gltfpack ? gltfpack->level(share, aggressive) : std::nullopt;
+      if (level) add(aggressive ? "gltfpack -sa" : "gltfpack -si", *level);
+    }
   }
   stage.items(table.rows.size(), "levels");
   context.report().tables.push_back(std::move(table));

@@ -71,8 +71,7 @@ constexpr std::array k_sections{Name{"HEAD", "header"},
                                 Name{"FPAR", "parameters of foliage pruning"},
                                 Name{"IMPO", "impostor: its views"},
                                 Name{"IMPA", "impostor: colours"},
-                                Name{"IMPN", "impostor: normals"},
-                                Name{"IMPD", "impostor: depths"}};
+                                Name{"IMPN", "impostor: normals and depths"}};
 
 void note(Dump& dump, const Error& error) {
   if (!dump.problem) dump.problem = error;

@@ -1,3 +1,4 @@
+#include "lib/formats/impostors.h"
 #include "lib/formats/level_mesh.h"
 #include "lib/formats/spectrum_file.h"
 #include "lib/runtime/levels.h"
@@ -125,7 +126,27 @@ Result<Wanted> wanted_mesh(const TreeFile& file, const Tree& tree, const DumpOpt
 
 }  // namespace
 
+namespace {
+
+// The pictures of an impostor as they are stored: "oak.png" the colours, "oak.normal.png" normals and depth.
+Result<std::vector<ExportedFile>> export_impostor(const TreeFile& file, const DumpOptions& options) {
+  const auto atlas = read_impostor(file);
+  if (!atlas) return std::unexpected(atlas.error());
+  if (atlas->empty())
+    return refuse(options.files.front().string(), "holds no impostor, and nothing else is exported as .png",
+                  "bake one with lodbake --impostor, or name an .obj, .ply or .glb");
+  const auto text = [](const Array<std::uint8_t>& bytes) {
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  const fs::path name = options.export_to.filename();
+  return std::vector<ExportedFile>{{name.string(), text(atlas->albedo)},
+                                   {name.stem().string() + ".normal.png", text(atlas->normal)}};
+}
+
+}  // namespace
+
 Result<std::vector<ExportedFile>> export_tree(const TreeFile& file, const DumpOptions& options) {
+  if (options.export_to.extension() == ".png") return export_impostor(file, options);
   const auto format = export_format_of(options.export_to.string());
   if (!format) return std::unexpected(format.error());
   if (options.draco && *format != ExportFormat::glb) {

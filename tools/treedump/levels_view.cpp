@@ -1,6 +1,7 @@
 #include "tools/treedump/levels_view.h"
 
 #include "lib/formats/foliage_cells.h"
+#include "lib/formats/impostors.h"
 #include "lib/formats/spectrum_file.h"
 #include "lib/runtime/levels.h"
 #include "tools/treedump/text.h"
@@ -71,6 +72,13 @@ std::string level_text(const LodLevel& level, std::uint64_t full) {
                      metres_text(level.error));
 }
 
+std::string impostor_text(const ImpostorAtlas& a) {
+  const bool octahedral = a.layout == ImpostorLayout::octahedral;
+  return fmt::format("{} {} of {} x {} pixels, from {} on, {}", count_text(a.columns() * a.rows()),
+                     octahedral ? "views from everywhere" : "views round the trunk", a.size, a.size,
+                     metres_text(a.distance), bytes_text(a.albedo.size() + a.normal.size()));
+}
+
 void add_level(JsonText& json, const LodLevel& level, std::uint64_t full) {
   json.open_object(JsonText::in_line);
   json.member("triangles", level.triangles);
@@ -116,6 +124,8 @@ std::vector<Line> level_lines(const TreeFile& file) {
     out.emplace_back(label, fmt::format("{} {}", part, spectrum_text(*s, stored_bytes(file, section))));
     label = "";
   }
+  if (const auto impostor = read_impostor(file); impostor && !impostor->empty())
+    out.emplace_back("impostor", impostor_text(*impostor));
   return out;
 }
 
@@ -140,6 +150,18 @@ void add_levels(JsonText& json, const TreeFile& file) {
     for (const LodLevel& level : *levels) add_level(json, level, full);
     json.close();
   }
+  if (const auto a = read_impostor(file); a && !a->empty()) {
+    json.key("impostor");
+    json.open_object(JsonText::in_line);
+    json.member("layout", a->layout == ImpostorLayout::octahedral ? "octahedral" : "billboard");
+    json.member("views", a->columns() * a->rows());
+    json.member("size", a->size);
+    json.member("centre", a->centre);
+    json.member("radius", a->radius);
+    json.member("distance", a->distance);
+    json.member("bytes", std::uint64_t{a->albedo.size() + a->normal.size()});
+    json.close();
+  }
   json.close();
 }
 
@@ -151,6 +173,8 @@ std::vector<std::string> verify_levels(const TreeFile& file) {
   }
   const auto foliage = read_foliage_cells(file);
   if (!foliage) out.push_back(foliage.error().what);
+  const auto impostor = read_impostor(file);
+  if (!impostor) out.push_back(impostor.error().what);
   return out;
 }
 

@@ -51,9 +51,11 @@ void add_options(CLI::App& app, DumpOptions& options) {
                                ->check(number_from(0))
                                ->group(what);
   const char* geometry = "Geometry";
-  CLI::Option* export_to = app.add_option("--export", options.export_to, "the geometry as .obj, .ply or .glb")
-                               ->type_name("FILE")
-                               ->group(geometry);
+  CLI::Option* export_to =
+      app.add_option("--export", options.export_to,
+                     "the geometry as .obj, .ply or .glb; an impostor's pictures as .png")
+          ->type_name("FILE")
+          ->group(geometry);
   CLI::Option* draco = app.add_flag("--draco", options.draco, "compress a .glb with Draco")->group(geometry);
   CLI::Option* level = app.add_option("--level", options.level, "this level of detail; 0 is full")
                            ->type_name("N")

@@ -32,7 +32,9 @@ constexpr ImGuiWindowFlags k_panel = ImGuiWindowFlags_NoDecoration | ImGuiWindow
 void level_line(const Overlay::Facts& facts) {
   const ShownLevel& shown = facts.plan->shown;
   const std::size_t last = facts.scene->levels->spectra().discrete.size();
-  if (shown.number == k_none)
+  if (shown.impostor)
+    ImGui::Text("impostor%s", facts.by_distance ? ", by distance" : "");
+  else if (shown.number == k_none)
     ImGui::Text("level between 0 and %zu%s", last, facts.by_distance ? ", by distance" : "");
   else
     ImGui::Text("level %u of %zu%s", shown.number, last, facts.by_distance ? ", by distance" : "");

@@ -58,7 +58,14 @@ Result<std::unique_ptr<Renderer>> Renderer::make(const Scene& scene, const Rende
   if (scene.skeleton) {
     if (auto done = r->skeleton_.upload(*scene.skeleton); !done) return std::unexpected(done.error());
   }
-  if (scene.levels) r->shown_.level = full_detail(scene.levels->spectra());
+  if (scene.levels) r->level_ = full_detail(scene.levels->spectra());
+  if (scene.levels && scene.levels->impostor()) {
+    auto impostor = ImpostorPass::make();
+    if (!impostor) return std::unexpected(impostor.error());
+    r->impostor_ = std::move(*impostor);
+    if (auto done = r->impostor_.upload(*scene.levels->impostor()); !done)
+      return std::unexpected(done.error());
+  }
   if (auto done = r->make_lights(); !done) return std::unexpected(done.error());
   return r;
 }
@@ -157,13 +164,16 @@ void Renderer::draw_shadow_map() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-// The shadow goes with the level: a coarse tree under the shadow of a fine one would be dappled wrongly.
+// The shadow goes with the level: a coarse tree under the shadow of a fine one would be dappled wrongly. An
+// impostor is a picture of full detail, so that casts its shadow.
 void Renderer::take_level(const ShownLevel& shown) {
-  if (!scene_.levels || shown.level == shown_.level) return;
-  scene_.levels->take(shown.level, level_);
-  surfaces_.replace(level_.indices, level_.ranges);
+  if (!scene_.levels) return;
+  const LodLevel level = shown.impostor ? full_detail(scene_.levels->spectra()) : shown.level;
+  if (level == level_) return;
+  scene_.levels->take(level, level_geometry_);
+  surfaces_.replace(level_geometry_.indices, level_geometry_.ranges);
   if (settings_.lights) draw_shadow_map();
-  shown_ = shown;
+  level_ = level;
 }
 
 FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int height,
@@ -195,7 +205,9 @@ FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int 
   if (!plan.tree_visible) return plan;
   plan.instances_drawn = 1;
   if (shows_surface(look.show))
-    plan.triangles = scene_.levels ? scene_.levels->triangles(plan.shown.level) : scene_.triangles();
+    plan.triangles = plan.shown.impostor ? 2
+                     : scene_.levels     ? scene_.levels->triangles(plan.shown.level)
+                                         : scene_.triangles();
   if (look.show != Show::surface) {
     plan.lines = skeleton_.lines();
     plan.points = skeleton_.points();
@@ -335,7 +347,12 @@ void Renderer::draw_tile(const FramePlan& plan, const Tile& tile) {
   bind(unit_sky, GL_TEXTURE_3D, sky_texture_.get(), 0);
 
   const Show show = plan.look.show;
-  if (plan.tree_visible && shows_surface(show)) draw_surfaces(plan, tile, show == Show::both ? 0.6f : 0);
+  if (plan.tree_visible && shows_surface(show)) {
+    if (plan.shown.impostor)
+      draw_impostor(plan, tile);
+    else
+      draw_surfaces(plan, tile, show == Show::both ? 0.6f : 0);
+  }
   draw_backdrop(plan, tile);
   if (plan.tree_visible && show != Show::surface) draw_skeleton(plan, tile);
 }
@@ -355,6 +372,14 @@ void Renderer::draw_surfaces(const FramePlan& plan, const Tile& tile, float ghos
   surfaces_.draw_light(tile.clip, tile.offset, plan.look.lit, ghost,
                        haze ? k_haze * static_cast<float>(scene_.size()) : 0);
   glDepthMask(GL_TRUE);
+}
+
+void Renderer::draw_impostor(const FramePlan& plan, const Tile& tile) const {
+  glDepthFunc(GL_LESS);
+  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  set_common(impostor_.program(), tile);
+  impostor_.draw(tile.clip, tile.offset, plan.look.lit, multisamples_ > 1);
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
 void Renderer::draw_backdrop(const FramePlan& plan, const Tile& tile) const {

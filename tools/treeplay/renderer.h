@@ -4,6 +4,7 @@
 
 #include "lib/runtime/camera.h"
 #include "tools/treeplay/gl.h"
+#include "tools/treeplay/impostor_pass.h"
 #include "tools/treeplay/scene.h"
 #include "tools/treeplay/skeleton_pass.h"
 #include "tools/treeplay/surface_pass.h"
@@ -76,6 +77,7 @@ class Renderer {
   void set_common(const Program& program, const Tile& tile) const;
   void draw_tile(const FramePlan& plan, const Tile& tile);
   void draw_surfaces(const FramePlan& plan, const Tile& tile, float ghost) const;
+  void draw_impostor(const FramePlan& plan, const Tile& tile) const;
   void draw_backdrop(const FramePlan& plan, const Tile& tile) const;
   void draw_skeleton(const FramePlan& plan, const Tile& tile);
   void resolve(const Tile& tile, GLuint framebuffer) const;
@@ -85,9 +87,10 @@ class Renderer {
   int sub_pixels_ = 1;    // a side
   int multisamples_ = 1;  // what the driver gives
   int largest_size_ = 0;
-  ShownLevel shown_;    // what the surfaces and the shadow map hold
-  TreeGeometry level_;  // its indices and ranges
+  LodLevel level_;               // what the surfaces and the shadow map hold
+  TreeGeometry level_geometry_;  // its indices and ranges
   SurfacePass surfaces_;
+  ImpostorPass impostor_;
   SkeletonPass skeleton_;
   Program ground_, backdrop_, resolve_;
   VertexArray no_vertices_;

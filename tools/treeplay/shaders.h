@@ -18,6 +18,9 @@ extern const std::string_view k_surface_fragment;   // second pass: light, where
 extern const std::string_view k_shadow_vertex;
 extern const std::string_view k_shadow_fragment;
 
+extern const std::string_view k_impostor_vertex;
+extern const std::string_view k_impostor_fragment;
+
 extern const std::string_view k_line_vertex;
 extern const std::string_view k_line_fragment;
 extern const std::string_view k_disc_vertex;

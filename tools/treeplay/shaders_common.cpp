@@ -100,6 +100,23 @@ vec4 sky_at(vec3 local) {
   return mix(texture(sky_grid, at), vec4(0.0, 0.5, 0.0, 0.5), open);
 }
 float skylight(vec4 sky_here, vec3 normal) { return max(0.0, sky_here.w + dot(sky_here.xyz, normal)); }
+
+// What a surface at `local` sends towards `view`, without gloss. thin: 1 for leaves, light shines through. `sun`
+// is the share of it that arrives.
+vec3 light_on(vec3 albedo, vec3 local, vec3 view, vec3 n, float thin, out float sun) {
+  float facing = dot(n, sun_direction);
+  sun = sunlight(local, facing < 0.0 ? -n : n);
+  vec4 here = sky_at(local);
+  float front = max(facing, 0.0), back = max(-facing, 0.0);
+  float from_sky = mix(skylight(here, n), 0.55 * skylight(here, n) + 0.45 * skylight(here, -n) + 0.06, thin);
+  float from_ground = (0.5 - 0.5 * mix(n.y, 0.0, 0.5 * thin)) * min(1.0, 2.2 * here.w);
+  vec3 ground = k_ground_colour * (k_sun_colour * sun_direction.y * 0.55 + k_sky_colour);
+  vec3 c = albedo * (k_sun_colour * sun * front * mix(1.0, 0.85, thin) + k_sky_colour * from_sky + ground * from_ground);
+  // A leaf is a filter: what comes through is yellower, and strongest against the sun.
+  vec3 filtered = albedo * vec3(1.05, 1.12, 0.5);
+  float against = 1.0 + 1.2 * pow(max(dot(-view, sun_direction), 0.0), 4.0);
+  return c + thin * filtered * k_sun_colour * sun * back * 0.65 * against;
+}
 )";
 
 const std::string_view k_ground_vertex = R"(

@@ -76,18 +76,9 @@ vec3 shade(vec3 albedo) {
   if (dot(face, view) < 0.0) face = -face;
   vec3 n = normalize(v_normal);
   if (dot(n, face) < 0.0) n = -n;
+  float sun;
+  vec3 c = light_on(albedo, v_local, view, n, thin, sun);
   float facing = dot(n, sun_direction);
-  float sun = sunlight(v_local, facing < 0.0 ? -n : n);
-  vec4 here = sky_at(v_local);
-  float front = max(facing, 0.0), back = max(-facing, 0.0);
-  float from_sky = mix(skylight(here, n), 0.55 * skylight(here, n) + 0.45 * skylight(here, -n) + 0.06, thin);
-  float from_ground = (0.5 - 0.5 * mix(n.y, 0.0, 0.5 * thin)) * min(1.0, 2.2 * here.w);
-  vec3 ground = k_ground_colour * (k_sun_colour * sun_direction.y * 0.55 + k_sky_colour);
-  vec3 c = albedo * (k_sun_colour * sun * front * mix(1.0, 0.85, thin) + k_sky_colour * from_sky + ground * from_ground);
-  // A leaf is a filter: what comes through is yellower, and strongest against the sun.
-  vec3 filtered = albedo * vec3(1.05, 1.12, 0.5);
-  float against = 1.0 + 1.2 * pow(max(dot(-view, sun_direction), 0.0), 4.0);
-  c += thin * filtered * k_sun_colour * sun * back * 0.65 * against;
   vec3 halfway = normalize(view + sun_direction);
   if (shininess > 0.0 && facing > 0.0) {
     c += specular * k_sun_colour * sun * pow(max(dot(n, halfway), 0.0), shininess);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -29,11 +30,33 @@ void TreeLevels::add_vertices(const Spectrum& spectrum) {
     base_.vertices.push_back({v.position, v.normal, v.texcoord});
 }
 
+namespace {
+
+Result<std::optional<TreeImpostor>> read_pictures(const TreeFile& file) {
+  auto atlas = read_impostor(file);
+  if (!atlas) return std::unexpected(atlas.error());
+  if (atlas->empty()) return std::nullopt;
+  TreeImpostor out{.atlas = std::move(*atlas), .albedo = {}, .normals = {}};
+  for (const auto& [image, png, name] : {std::tuple{&out.albedo, &out.atlas.albedo, "IMPA"},
+                                         std::tuple{&out.normals, &out.atlas.normal, "IMPN"}}) {
+    auto read = read_image(png->span(), fmt::format("{}, section {}", file.container().name(), name));
+    if (!read) return std::unexpected(read.error());
+    *image = std::move(*read);
+  }
+  return out;
+}
+
+}  // namespace
+
 Result<std::shared_ptr<const TreeLevels>> TreeLevels::load(const TreeFile& file, const Tree& tree) {
   if (!has_spectra(file.container())) return std::shared_ptr<const TreeLevels>();
   auto spectra = load_spectra(file.container(), tree.radius_count(), tree.materials.size());
   if (!spectra) return std::unexpected(spectra.error());
-  return std::shared_ptr<const TreeLevels>(new TreeLevels(std::move(*spectra), tree));
+  auto impostor = read_pictures(file);
+  if (!impostor) return std::unexpected(impostor.error());
+  const std::shared_ptr<TreeLevels> levels(new TreeLevels(std::move(*spectra), tree));
+  levels->impostor_ = std::move(*impostor);
+  return levels;
 }
 
 TreeGeometry TreeLevels::geometry() const {
@@ -81,17 +104,18 @@ Result<LevelChoice> LevelChoice::make(std::shared_ptr<const TreeLevels> levels, 
   const LodSpectra& spectra = choice.levels_->spectra();
   choice.shown_ = choice.numbered(0);
   if (wish.level) {
-    if (*wish.level > spectra.discrete.size())
+    if (*wish.level > choice.levels_->last())
       return no_level(fmt::format("holds the discrete levels 0 to {}, there is none numbered {}",
-                                  spectra.discrete.size(), *wish.level),
+                                  choice.levels_->last(), *wish.level),
                       "name one of them, or bake more with lodbake --discrete");
     choice.shown_ = choice.numbered(static_cast<std::uint32_t>(*wish.level));
   }
   const double full = full_detail(spectra).triangles;
   if (wish.ratio && *wish.ratio < 1)
     choice.shown_ = {k_none,
-                     level_of_triangles(spectra, static_cast<std::uint64_t>(std::floor(*wish.ratio * full)))};
-  if (wish.max_error) choice.shown_ = {k_none, level_of_error(spectra, *wish.max_error)};
+                     level_of_triangles(spectra, static_cast<std::uint64_t>(std::floor(*wish.ratio * full))),
+                     false};
+  if (wish.max_error) choice.shown_ = {k_none, level_of_error(spectra, *wish.max_error), false};
   if (wish.lod == Lod::spectrum && spectra.schedule.empty())
     return no_level("holds discrete levels alone", "bake with lodbake --continuous, or play with --lod auto");
   if (wish.lod == Lod::spectrum) choice.way_ = Way::continuous;
@@ -101,23 +125,29 @@ Result<LevelChoice> LevelChoice::make(std::shared_ptr<const TreeLevels> levels, 
 
 ShownLevel LevelChoice::numbered(std::uint32_t number) const {
   const LodSpectra& spectra = levels_->spectra();
-  return {number, number == 0 ? full_detail(spectra) : spectra.discrete[number - 1]};
+  const auto levels = static_cast<std::uint32_t>(spectra.discrete.size());
+  const std::uint32_t drawn = std::min(number, levels);
+  return {number, drawn == 0 ? full_detail(spectra) : spectra.discrete[drawn - 1], number > levels};
 }
 
 const ShownLevel& LevelChoice::at(double distance) {
   if (!levels_ || way_ == Way::fixed) return shown_;
   const LodSpectra& spectra = levels_->spectra();
-  if (way_ == Way::continuous)
-    shown_ = {k_none, level_of_distance(spectra, distance)};
+  const auto& impostor = levels_->impostor();
+  if (impostor && choose_impostor(spectra, impostor->atlas.distance, distance, shown_.impostor))
+    shown_ = numbered(levels_->last());
+  else if (way_ == Way::continuous)
+    shown_ = {k_none, level_of_distance(spectra, distance), false};
   else
-    shown_ = numbered(choose_discrete(spectra, distance, shown_.number));
+    shown_ =
+        numbered(choose_discrete(spectra, distance, shown_.impostor ? shown_.number - 1 : shown_.number));
   return shown_;
 }
 
 void LevelChoice::step(int coarser) {
   if (!levels_) return;
   const LodSpectra& spectra = levels_->spectra();
-  const auto last = static_cast<int>(spectra.discrete.size());
+  const auto last = static_cast<int>(levels_->last());
   int number = static_cast<int>(shown_.number);
   if (shown_.number == k_none) {
     // From between two levels to the next one in that direction.

@@ -1,6 +1,8 @@
 // The levels of detail of a tree that is drawn: which one is shown, and its triangles.
 #pragma once
 
+#include "lib/formats/import/image.h"
+#include "lib/formats/impostors.h"
 #include "lib/formats/result.h"
 #include "lib/formats/spectrum.h"
 #include "lib/formats/tree_file.h"
@@ -27,9 +29,17 @@ struct DetailWish {
 };
 
 struct ShownLevel {
-  std::uint32_t number = 0;  // 0: full detail, n: the n-th discrete level, k_none: one in between
+  // 0: full detail, n: the n-th discrete level, k_none: one in between; behind the last one the impostor
+  std::uint32_t number = 0;
   LodLevel level;
+  bool impostor = false;
   friend bool operator==(const ShownLevel&, const ShownLevel&) = default;
+};
+
+// The pictures that stand for a tree behind its last level.
+struct TreeImpostor {
+  ImpostorAtlas atlas;
+  Image albedo, normals;
 };
 
 class TreeLevels {
@@ -38,6 +48,11 @@ class TreeLevels {
   static Result<std::shared_ptr<const TreeLevels>> load(const TreeFile& file, const Tree& tree);
 
   const LodSpectra& spectra() const { return spectra_; }
+  const std::optional<TreeImpostor>& impostor() const { return impostor_; }
+  // The number of the last one: the impostor's when there is one.
+  std::uint32_t last() const {
+    return static_cast<std::uint32_t>(spectra_.discrete.size()) + (impostor_ ? 1 : 0);
+  }
   // The vertices of every level and the indices of full detail, with a range for each material of each part.
   // A part without a spectrum is the tree's own.
   TreeGeometry geometry() const;
@@ -51,6 +66,7 @@ class TreeLevels {
   void append(const LevelExtractor& extractor, DrawPart part, std::uint32_t steps, TreeGeometry& out) const;
 
   LodSpectra spectra_;
+  std::optional<TreeImpostor> impostor_;
   LevelExtractor trunk_, leaves_;
   TreeGeometry base_;  // vertices of all, ranges and indices of parts without a spectrum
   std::uint32_t first_leaf_vertex_ = 0, first_trunk_vertex_ = 0;

@@ -59,21 +59,6 @@ std::vector<Paint> paints_of(std::span<const Material> materials, const ImageSou
   return out;
 }
 
-std::vector<Double3> views_of(const ImpostorOptions& o) {
-  std::vector<Double3> out;
-  if (o.layout == ImpostorOptions::Layout::billboard) {
-    for (int i = 0; i < o.views; ++i) {
-      const double a = 2 * std::numbers::pi * i / o.views;
-      out.push_back({std::sin(a), 0, std::cos(a)});
-    }
-    return out;
-  }
-  for (int j = 0; j < o.views; ++j)
-    for (int i = 0; i < o.views; ++i)
-      out.push_back(octahedral_direction((2.0 * i + 1) / o.views - 1, (2.0 * j + 1) / o.views - 1));
-  return out;
-}
-
 class Painter {
  public:
   Painter(const DrawnMesh& mesh, std::span<const Material> materials, const ImageSource& images,
@@ -85,7 +70,8 @@ class Painter {
         looks_{materials, masks_} {}
 
   Impostor run() {
-    out_.views = views_of(options_);
+    out_.layout = options_.layout;
+    out_.views = impostor_views(options_.layout, static_cast<std::uint32_t>(options_.views));
     out_.size = options_.size;
     const int columns = options_.views, rows = static_cast<int>(out_.views.size()) / std::max(columns, 1);
     out_.width = columns * options_.size, out_.height = rows * options_.size;
@@ -185,6 +171,13 @@ class Painter {
     out_.depth[at] = to_byte((sum.depth / n / out_.radius + 1) / 2);
   }
 
+  // All but alpha; `to` and `from` are the bytes at which pixels begin.
+  void take(std::size_t from, std::size_t to) {
+    std::copy_n(&out_.albedo[from], 3, &out_.albedo[to]);
+    std::copy_n(&out_.normal[from], 3, &out_.normal[to]);
+    out_.depth[to / 4] = out_.depth[from / 4];
+  }
+
   // Spreads colours into the empty pixels of a view, so that filtering meets no black rim: rows, then
   // columns.
   void bleed(int x0, int y0) {
@@ -200,7 +193,7 @@ class Painter {
         if (next >= 0 && (nearest[i] < 0 || next - i < i - nearest[i])) nearest[i] = next;
       }
       for (int i = 0; i < n; ++i)
-        if (!has(i) && nearest[i] >= 0) std::copy_n(&out_.albedo[at(nearest[i])], 3, &out_.albedo[at(i)]);
+        if (!has(i) && nearest[i] >= 0) take(at(nearest[i]), at(i));
     };
     std::vector<std::uint8_t> row_has(n, 0);
     for (int y = 0; y < n; ++y) {
@@ -221,26 +214,114 @@ class Painter {
 
 }  // namespace
 
-Double3 octahedral_direction(double u, double v) {
-  Double3 d{u, 1 - std::abs(u) - std::abs(v), v};
-  if (d.y < 0) d.x = std::copysign(1 - std::abs(v), u), d.z = std::copysign(1 - std::abs(u), v);
-  return normalized(d);
-}
-
-std::array<double, 2> octahedral_place(const Double3& d) {
-  const double sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-  if (!(sum > 0)) return {0, 0};
-  const double u = d.x / sum, v = d.z / sum;
-  if (d.y >= 0) return {u, v};
-  return {std::copysign(1 - std::abs(v), u), std::copysign(1 - std::abs(u), v)};
-}
-
 Impostor make_impostor(const DrawnMesh& mesh, std::span<const Material> materials, const ImageSource& images,
                        const ImpostorOptions& options) {
   ImpostorOptions sane = options;
   sane.views = std::clamp(sane.views, 1, 64), sane.size = std::clamp(sane.size, 1, 1024),
   sane.samples = std::clamp(sane.samples, 1, 8);
   return Painter(mesh, materials, images, sane).run();
+}
+
+namespace {
+
+// A view of the atlas as a function of the place in it: x to the right, y up, both -1 to 1.
+class ViewReader {
+ public:
+  ViewReader(const Impostor& impostor, std::uint32_t view)
+      : impostor_(impostor),
+        toward_(impostor.views[view]),
+        frame_(impostor_frame(toward_)),
+        x0_(static_cast<int>(view) % (impostor.width / impostor.size) * impostor.size),
+        y0_(static_cast<int>(view) / (impostor.width / impostor.size) * impostor.size) {}
+
+  struct Texel {
+    Double3 colour, normal;  // times alpha; linear, and in the tree's frame
+    double alpha = 0;
+  };
+
+  // Where a ray through `from` along `along` meets the tree: where it is as deep as the picture says there.
+  Texel at(const Double3& from, const Double3& along) const {
+    const double slope = dot(along, toward_);
+    if (!(std::abs(slope) > 1e-3)) return {};
+    double height = 0;
+    std::array<double, 2> place{};
+    for (int step = 0; step < 3; ++step) {
+      const Double3 p = from + along * ((height - dot(from, toward_)) / slope);
+      place = {dot(p, frame_.right) / impostor_.radius, dot(p, frame_.up) / impostor_.radius};
+      height = (2 * depth(place) - 1) * impostor_.radius;
+    }
+    return read(place);
+  }
+
+ private:
+  std::size_t pixel(int x, int y) const {
+    const int last = impostor_.size - 1;
+    return static_cast<std::size_t>(y0_ + std::clamp(y, 0, last)) *
+               static_cast<std::size_t>(impostor_.width) +
+           static_cast<std::size_t>(x0_ + std::clamp(x, 0, last));
+  }
+  double depth(const std::array<double, 2>& p) const {
+    const double half = impostor_.size / 2.0;
+    const auto at = [&](double v) {
+      return static_cast<int>(std::clamp(std::floor(v), -1.0, double(impostor_.size)));
+    };
+    return impostor_.depth[pixel(at(half + p[0] * half), at(half - p[1] * half))] / 255.0;
+  }
+  Texel read(const std::array<double, 2>& p) const {
+    if (!(std::abs(p[0]) <= 1 && std::abs(p[1]) <= 1)) return {};
+    const double half = impostor_.size / 2.0, x = half + p[0] * half - 0.5, y = half - p[1] * half - 0.5;
+    const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
+    Texel out;
+    for (const int dy : {0, 1})
+      for (const int dx : {0, 1}) {
+        const double weight = (dx ? x - i : 1 - (x - i)) * (dy ? y - j : 1 - (y - j));
+        add(pixel(i + dx, j + dy), weight, out);
+      }
+    return out;
+  }
+  void add(std::size_t pixel, double weight, Texel& out) const {
+    const std::uint8_t *c = &impostor_.albedo[4 * pixel], *n = &impostor_.normal[4 * pixel];
+    const double alpha = weight * c[3] / 255.0;
+    out.alpha += alpha;
+    out.colour += Double3{to_linear(c[0] / 255.0), to_linear(c[1] / 255.0), to_linear(c[2] / 255.0)} * alpha;
+    out.normal +=
+        (frame_.right * (n[0] / 127.5 - 1) + frame_.up * (n[1] / 127.5 - 1) + toward_ * (n[2] / 127.5 - 1)) *
+        alpha;
+  }
+
+  const Impostor& impostor_;
+  Double3 toward_;
+  ImpostorFrame frame_;
+  int x0_, y0_;
+};
+
+}  // namespace
+
+Picture draw_impostor(const Impostor& impostor, const OrthographicView& view) {
+  static const Double3 light = normalized({0.35, 0.8, 0.5});
+  Picture out{view.width, view.height, {}, {}};
+  const std::size_t pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
+  out.colour.assign(pixels, {1, 1, 1}), out.coverage.assign(pixels, 0);
+  if (impostor.views.empty() || !(impostor.radius > 0)) return out;
+  const auto views = static_cast<std::uint32_t>(impostor.width / impostor.size);
+  const ImpostorBlend blend = impostor_blend(impostor.layout, views, view.toward);
+  const Double3 offset = view.centre - impostor.centre;
+  for (std::size_t p = 0; p < pixels; ++p) {
+    const double x = (static_cast<double>(p % view.width) + 0.5 - view.width / 2.0) * view.pixel,
+                 y = (view.height / 2.0 - static_cast<double>(p / view.width) - 0.5) * view.pixel;
+    ViewReader::Texel sum;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(blend.weight[k] > 0)) continue;
+      const auto texel =
+          ViewReader(impostor, blend.view[k]).at(offset + view.right * x + view.up * y, view.toward);
+      sum.alpha += blend.weight[k] * texel.alpha;
+      sum.colour += texel.colour * blend.weight[k], sum.normal += texel.normal * blend.weight[k];
+    }
+    const double lit = 0.5 + 0.5 * std::abs(dot(normalized(sum.normal), light));
+    out.colour[p] = to_float(sum.colour * lit + Double3{1, 1, 1} * (1 - sum.alpha));
+    out.coverage[p] = static_cast<float>(sum.alpha);
+  }
+  return out;
 }
 
 }  // namespace copse

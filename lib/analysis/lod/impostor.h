@@ -1,13 +1,12 @@
 // impostor: a tree as pictures of it: the last level, from where it is a few pixels tall.
 //
-// An atlas of views, orthographic, each framing the tree's bounding sphere: `billboard` has views round the
-// trunk, all level; `octahedral` has one for every cell of the octahedral map of the sphere, so that the
-// three nearest of any direction can be blended. Beside colour and alpha the normal and the depth, for light
-// and parallax. (Digest 003, section 9; Cigolle and others, "A survey of efficient representations for
-// independent unit vectors" (2014).)
+// The atlas of lib/formats/impostors.h, painted: beside colour and alpha the normal and the depth, for light
+// and parallax. (Digest 003, section 9.)
 #pragma once
 
 #include "lib/analysis/measure/drawn_mesh.h"
+#include "lib/analysis/measure/picture.h"
+#include "lib/formats/impostors.h"
 
 #include <cstdint>
 #include <vector>
@@ -15,7 +14,7 @@
 namespace copse {
 
 struct ImpostorOptions {
-  enum class Layout { billboard, octahedral } layout = Layout::octahedral;
+  ImpostorLayout layout = ImpostorLayout::octahedral;
   int views =
       8;  // along a side of the atlas: views x views of them; of a billboard, their number, in one row
   int size = 64;    // pixels of a view's side
@@ -25,25 +24,25 @@ struct ImpostorOptions {
 // Rows from the top, four bytes a pixel. Alpha is the share of the pixel that the tree covers, in both
 // pictures.
 struct Impostor {
+  ImpostorLayout layout = ImpostorLayout::octahedral;
   int width = 0, height = 0, size = 0;
   std::vector<std::uint8_t>
-      albedo;  // sRGB and alpha; colour where nothing is: the nearest covered pixel's of its view
+      albedo;  // sRGB and alpha; where nothing is, all but alpha is the nearest covered pixel's of its view
   std::vector<std::uint8_t> normal;  // 127.5 (n + 1) in the view's frame: right, up, toward the viewer; alpha
-  std::vector<std::uint8_t>
-      depth;  // one byte a pixel: toward the viewer, 0 at -radius, 255 at radius; 0 where nothing is
-  std::vector<Double3> views;  // toward the viewer, in the order of the atlas, row by row
-  Double3 centre{};            // of the sphere that every view frames
+  std::vector<std::uint8_t> depth;   // one byte a pixel: toward the viewer, 0 at -radius, 255 at radius
+  std::vector<Double3> views;        // toward the viewer, in the order of the atlas, row by row
+  Double3 centre{};                  // of the sphere that every view frames
   double radius = 0;
 };
-
-// The unit vector at (u, v) in [-1, 1]^2 of the octahedral map with +Y in its middle, and back.
-Double3 octahedral_direction(double u, double v);
-std::array<double, 2> octahedral_place(const Double3& direction);
 
 // Textures come from `images` (drawn as the nearest texel); a material without one has its diffuse and mean
 // colour. Views are drawn in parallel; the result does not depend on the number of threads. Cost: views x
 // (triangles + samples).
 Impostor make_impostor(const DrawnMesh& mesh, std::span<const Material> materials, const ImageSource& images,
                        const ImpostorOptions& options);
+
+// What a player shows of it: the nearest views blended, each read where its depth says that the ray meets the
+// tree; shaded as draw_picture shades. For measuring. Cost: pixels.
+Picture draw_impostor(const Impostor& impostor, const OrthographicView& view);
 
 }  // namespace copse

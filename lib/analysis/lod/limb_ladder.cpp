@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <queue>
 
 namespace copse {
@@ -22,9 +23,27 @@ struct Removal {
   bool operator<(const Removal& b) const { return cost != b.cost ? cost > b.cost : ring > b.ring; }
 };
 
+// The angle by which a path turns, radians.
+double bend(const Double3& from, const Double3& to) {
+  return std::atan2(length(cross(from, to)), dot(from, to));
+}
+
+// The mean of it in the pictures of level views all round.
+double projected_bend(const Double3& from, const Double3& to) {
+  constexpr int k_views = 8;  // half a turn: the other half shows the mirror images
+  double sum = 0;
+  for (int i = 0; i < k_views; ++i) {
+    const double a = std::numbers::pi * i / k_views;
+    const Double3 right{std::cos(a), 0, std::sin(a)};
+    sum += bend({dot(from, right), from.y, 0}, {dot(to, right), to.y, 0});
+  }
+  return sum / k_views;
+}
+
 class RingOrder {
  public:
-  RingOrder(const LimbShape& shape, const std::vector<std::uint8_t>& forks) : shape_(shape), forks_(forks) {
+  RingOrder(const LimbShape& shape, const std::vector<std::uint8_t>& forks, RemovalOrder by)
+      : shape_(shape), forks_(forks), by_(by) {
     const auto n = static_cast<std::uint32_t>(shape.ring_count());
     for (std::uint32_t i = 0; i < n; ++i) before_.push_back(i - 1), after_.push_back(i + 1);
     version_.assign(n, 0), interval_.assign(n, 0);
@@ -44,8 +63,14 @@ class RingOrder {
 
  private:
   double cost(std::uint32_t i) const {
+    const Double3 &a = shape_.ring(before_[i]).centre, &b = shape_.ring(i).centre,
+                  &c = shape_.ring(after_[i]).centre;
+    const double weight = forks_[i] ? 2 : 1;
+    if (by_ == RemovalOrder::angle) return weight * bend(b - a, c - b);
+    if (by_ == RemovalOrder::projected_angle) return weight * projected_bend(b - a, c - b);
+    if (by_ == RemovalOrder::diameter) return weight * shape_.ring(i).radius;
     const double extra = shape_.area_error(before_[i], after_[i]) - interval_[before_[i]] - interval_[i];
-    return std::max(extra, 0.0) * (forks_[i] ? 2 : 1);
+    return std::max(extra, 0.0) * weight;
   }
   void remove(std::uint32_t i, std::priority_queue<Removal>& queue, std::uint32_t n) {
     const std::uint32_t a = before_[i], b = after_[i];
@@ -63,6 +88,7 @@ class RingOrder {
 
   const LimbShape& shape_;
   const std::vector<std::uint8_t>& forks_;
+  RemovalOrder by_;
   std::vector<std::uint32_t> before_, after_, version_;
   std::vector<double> interval_;  // error of the interval that begins at a ring
   double total_ = 0;
@@ -162,8 +188,8 @@ std::vector<LimbRung> convex(std::vector<LimbRung> rungs, std::uint32_t full) {
 }  // namespace
 
 std::vector<LimbRung> limb_ladder(const LimbShape& shape, const std::vector<std::uint8_t>& forks,
-                                  std::uint32_t full, double vanish) {
-  const RingOrder rings(shape, forks);
+                                  std::uint32_t full, double vanish, RemovalOrder order) {
+  const RingOrder rings(shape, forks, order);
   Walk walk(shape, rings);
   std::vector<LimbRung> all = walk.rungs();
   const double length = shape.length_between(0, shape.ring_count() - 1);

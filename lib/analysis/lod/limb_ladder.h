@@ -9,6 +9,14 @@
 
 namespace copse {
 
+// Which ring of a limb goes next (digest 000, section 5.7 and table 5.1).
+enum class RemovalOrder {
+  silhouette,       // the one whose loss costs the least area of silhouette
+  angle,            // the one at which the axis bends least: the angle between its two segments
+  projected_angle,  // the same, as seen from level directions all round, on the mean
+  diameter,         // the thinnest
+};
+
 struct LimbRung {
   std::vector<std::uint32_t> kept;  // rings, ascending, first and last among them; empty: nothing is left
   std::uint32_t sides = 0;          // 2: a ribbon; 1: one triangle
@@ -18,10 +26,11 @@ struct LimbRung {
 };
 
 // `forks`: for every ring whether other limbs grow there (such a ring counts twice). `full`: triangles of
-// full detail. `vanish`: see TrunkRadiiOptions. Rungs by strictly descending triangles, below `full`; costs
-// grow at least in proportion to what they save (a convex ladder); the last one is nothing. O(rings log
-// rings).
+// full detail. `vanish`, `order`: see TrunkRadiiOptions; whatever the order, costs and bounds are those of
+// what is left out. Rungs by strictly descending triangles, below `full`; costs grow at least in proportion
+// to what they save (a convex ladder); the last one is nothing. O(rings log rings).
 std::vector<LimbRung> limb_ladder(const LimbShape& shape, const std::vector<std::uint8_t>& forks,
-                                  std::uint32_t full, double vanish);
+                                  std::uint32_t full, double vanish,
+                                  RemovalOrder order = RemovalOrder::silhouette);
 
 }  // namespace copse

@@ -177,6 +177,22 @@ std::vector<Move> order_moves(const std::vector<LimbChain>& limbs,
   return moves;
 }
 
+// The thinnest limb first, each with all of its rungs, but none before what grows from it.
+void sort_by_diameter(const std::vector<LimbChain>& limbs, const std::vector<LimbState>& states,
+                      std::vector<Move>& moves) {
+  std::vector<double> thickest(limbs.size(), 0);
+  for (std::size_t l = limbs.size(); l-- > 0;) {
+    for (std::size_t i = 0; i < states[l].shape().ring_count(); ++i)
+      thickest[l] = std::max(thickest[l], states[l].shape().ring(i).radius);
+    const std::uint32_t p = limbs[l].parent;
+    if (p != k_none) thickest[p] = std::max(thickest[p], thickest[l]);
+  }
+  std::stable_sort(moves.begin(), moves.end(), [&](const Move& a, const Move& b) {
+    if (thickest[a.limb] != thickest[b.limb]) return thickest[a.limb] < thickest[b.limb];
+    return a.limb != b.limb ? a.limb > b.limb : a.rung < b.rung;
+  });
+}
+
 }  // namespace
 
 Spectrum trunk_by_radii(const Tree& tree, const TrunkRadiiOptions& options) {
@@ -199,10 +215,13 @@ Spectrum trunk_by_radii(const Tree& tree, const TrunkRadiiOptions& options) {
     states.emplace_back(tree, centres, trunk, limbs[l], l);
     states[l].add_full_detail(trunk, builder);
     full.push_back(states[l].full());
-    if (full[l] > 0) ladders[l] = limb_ladder(states[l].shape(), forks[l], full[l], options.vanish);
+    if (full[l] > 0)
+      ladders[l] = limb_ladder(states[l].shape(), forks[l], full[l], options.vanish, options.order);
   }
+  std::vector<Move> moves = order_moves(limbs, ladders, full);
+  if (options.order == RemovalOrder::diameter) sort_by_diameter(limbs, states, moves);
   double bound = 0;
-  for (const Move& move : order_moves(limbs, ladders, full)) {
+  for (const Move& move : moves) {
     const LimbRung& rung = ladders[move.limb][move.rung];
     bound = std::max(bound, rung.bound);
     builder.step(bound);

@@ -3,6 +3,7 @@
 // trunk keeps its structure and there is no floor at any ratio.
 #pragma once
 
+#include "lib/analysis/lod/limb_ladder.h"
 #include "lib/formats/spectrum.h"
 #include "lib/formats/tree.h"
 
@@ -11,6 +12,9 @@ namespace copse {
 struct TrunkRadiiOptions {
   // What a limb that vanishes costs, in what a limb that shrinks to its axis costs.
   double vanish = 1.3;
+  // Which rings of a limb go first. By diameter, limbs go thinnest first too (table 5.1); otherwise all limbs
+  // share one order by cost a triangle.
+  RemovalOrder order = RemovalOrder::silhouette;
 };
 
 // Every limb has a ladder of tubes from its own triangles to nothing; each rung costs the area of silhouette
