@@ -66,10 +66,9 @@ TEST(Welded, TreeOfProctreeIsExact) {
   EXPECT_EQ(explained(h), 1);
 }
 
-// 72 000 vertices of a skin modifier, subdivided, with holes and edges of three triangles. The mesh has some
-// eighteen loops for each ring of the truth; a quarter of them stays, and the truth is compared with those
-// next to it.
-TEST(Welded, SkinOfAnOakKeepsALoopAtEachTrueRing) {
+// 72 000 vertices of a skin modifier, subdivided, with holes and edges of three triangles. The axes' corners
+// come out of its cage to a hundred thousandth of its height, but for the forks whose every ring was moved.
+TEST(Welded, SkinOfAnOakHasTheAxesOfItsCage) {
   const TrunkMesh mesh = real_trunk("dv_oak_skin.obj.gz", "wood");
   if (mesh.triangles.empty()) GTEST_SKIP();
   const auto truth = read_truth(k_trees / "truth" / "dv_oak_skin.json.gz");
@@ -77,21 +76,11 @@ TEST(Welded, SkinOfAnOakKeepsALoopAtEachTrueRing) {
   const Hierarchy h = recover_welded(mesh, all_triangles(mesh));
   EXPECT_EQ(breach(h, mesh.positions.size(), mesh.triangles.size()), "");
   EXPECT_EQ(explained(h), 1);
-  EXPECT_LT(h.radii.size(), 2500u);
-  std::size_t near = 0;
-  std::vector<double> off;
-  for (const TrueRadius& t : truth->radii) {
-    double centre = INFINITY, diameter = 0;
-    for (const RadiusNode& r : h.radii) {
-      const double d = distance(r.centre, t.centre);
-      if (d < centre) centre = d, diameter = r.diameter;
-    }
-    near += centre <= std::max(0.125 * t.diameter, 0.0025 * truth->height);
-    off.push_back(std::abs(diameter / t.diameter - 1));
-  }
-  std::ranges::sort(off);
-  EXPECT_GT(static_cast<double>(near), 0.95 * static_cast<double>(truth->radii.size()));
-  EXPECT_LT(off[off.size() / 2], 0.01);
+  const Exactness e = measure(*truth, h);
+  EXPECT_EQ(e.rings, 468u);
+  EXPECT_GE(e.found, 440u);
+  EXPECT_GE(e.parents_right, 415u);
+  EXPECT_LE(e.extra, 60u);
 }
 
 struct RealCase {

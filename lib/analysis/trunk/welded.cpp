@@ -1,8 +1,10 @@
 #include "lib/analysis/trunk/welded.h"
 
+#include "lib/analysis/trunk/cage_axes.h"
 #include "lib/analysis/trunk/fit.h"
 #include "lib/analysis/trunk/fork_rings.h"
 #include "lib/analysis/trunk/implied_rings.h"
+#include "lib/analysis/trunk/reverse_subdivision.h"
 #include "lib/analysis/trunk/surface.h"
 #include "lib/analysis/trunk/surface_skeleton.h"
 #include "lib/analysis/trunk/welded_tolerances.h"
@@ -55,7 +57,25 @@ Hierarchy as_drawn(const Surface& s, Hierarchy rings) {
   return drawn;
 }
 
+// The axes of a skin that was subdivided; no radii where the surface is none.
+Hierarchy axes_of_skin(const Surface& s) {
+  const std::optional<Cage> cage = reverse_subdivision(s);
+  if (!cage) return {};
+  Hierarchy axes = cage_axes(*cage);
+  if (axes.radii.empty()) return {};
+  axes.notes.push_back(fmt::format(
+      "surface of {} triangles at mesh triangle {}: subdivided {} from a cage of {} polygons{}, undone to "
+      "{:.2g} m; the "
+      "radii are the corners of the axes within the cage",
+      s.triangles.size(), s.order.front(), cage->levels == 1 ? "once" : fmt::format("{} times", cage->levels),
+      cage->faces.count(), cage->is_on_limit ? ", on its limit surface" : "", cage->precision));
+  return axes;
+}
+
 Hierarchy recover_surface(const Surface& s, const WeldedOptions& options, bool may_flow) {
+  if (options.method != WeldedMethod::surface) {
+    if (Hierarchy axes = axes_of_skin(s); !axes.radii.empty()) return axes;
+  }
   RingReading rings;
   if (options.method != WeldedMethod::surface) rings = read_fork_rings(s);
   if (options.method == WeldedMethod::rings) {

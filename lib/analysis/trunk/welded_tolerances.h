@@ -140,6 +140,47 @@ inline constexpr double k_corner_bend = 0.005;
 // Radii by which a ring may be off the line between the rings that stay, centre and radius together.
 inline constexpr double k_implied_tolerance = 0.02;
 
+// --- reverse_subdivision
+
+// Triangles: a surface of fewer is no subdivision of anything that has rings.
+inline constexpr std::size_t k_least_subdivided = 64;
+// The least eigenvalue that is counted on, of a step and of a step and the limit: 1/4 and 1/9 where all is
+// regular, somewhat less round vertices of many or few edges.
+inline constexpr double k_least_step_eigenvalue = 0.15;
+inline constexpr double k_least_limit_eigenvalue = 0.06;
+// Share of the diagonal at which the iteration is done: below what files round to.
+inline constexpr double k_solved_share = 1e-9;
+inline constexpr int k_solver_rounds = 200;
+// Share of the edge points and face points that must be where the cage foretells them ...
+inline constexpr double k_foretold_share = 0.9;
+// ... within this share of the diagonal (five decimals of a ten metre tree; a circle of sixteen is off the
+// curve that eight of its points foretell by more, unless it is a ten-thousandth of the tree) and this
+// share of an edge.
+inline constexpr double k_foretold_of_diagonal = 2e-6;
+inline constexpr double k_foretold_of_edge = 1.0 / 128;
+
+// --- hull_relaxation
+
+// Rounds of the iteration at most, and the share of the movement at which it is done.
+inline constexpr int k_relaxation_rounds = 200;
+inline constexpr double k_relaxation_done = 1e-9;
+
+// --- cage_axes
+
+// How much more than the file's rounding moves a ring's centre: undoing a subdivision enlarges it.
+inline constexpr double k_cage_noise = 16;
+// Radii: what counts as exact besides.
+inline constexpr double k_cage_tolerance = 1e-3;
+// Determinant of the lines' normal matrix below which they are parallel: two lines at a hundredth of a radian
+// have 1e-4.
+inline constexpr double k_cage_parallel = 1e-7;
+// Times the rounding that lines may miss one another by where they do not meet exactly: a tenth of a radius.
+inline constexpr double k_about_meeting = 50;
+// Radii by which a ring whose corners had been moved must be off the line to be a corner of the axis.
+inline constexpr double k_moved_tolerance = 0.05;
+// Share of the rings next to forks that must become regular for a smoothing of hulls to be believed.
+inline constexpr double k_relaxed_share = 0.1;
+
 // --- welded
 
 // Share of the triangles that lie between rings from which on the rings are taken without trying anything
