@@ -120,5 +120,54 @@ TEST(ConvexHull, DoesNotDependOnTheOrderOrRepetitionOfThePoints) {
   }
 }
 
+// CGAL orders by the addresses of its elements: other blocks of memory must not give another hull.
+TEST(ConvexHull, DoesNotDependOnWhereInMemoryItIsBuilt) {
+  Points torus;
+  for (int i = 0; i < 20; ++i) {
+    for (int j = 0; j < 12; ++j) {
+      const double a = 2 * std::numbers::pi * i / 20, b = 2 * std::numbers::pi * j / 12,
+                   r = 0.5 + 0.2 * std::cos(b);
+      torus.push_back({r * std::cos(a), r * std::sin(a), 0.2 * std::sin(b)});
+    }
+  }
+  const ConvexHull first = hull_of(torus);
+  Random random(5);
+  std::vector<std::vector<char>> blocks;
+  for (int i = 0; i < 60; ++i) {
+    for (int k = 0; k < 20; ++k) blocks.emplace_back(1 + random.below(60'000));
+    for (int k = 0; k < 12; ++k)
+      std::swap(blocks[random.below(blocks.size())], blocks.back()), blocks.pop_back();
+    const ConvexHull again = hull_of(torus);
+    ASSERT_EQ(first.vertices, again.vertices) << i;
+    ASSERT_EQ(first.faces, again.faces) << i;
+  }
+}
+
+TEST(ConvexHull, PointsOnFacetsAndEdgesAreNoCorners) {
+  Points grid, prism;
+  for (int i = 0; i < 216; ++i) {
+    grid.push_back({double(i % 6), double(i / 6 % 6), double(i / 36)});
+  }
+  for (int i = 0; i < 2; ++i) {  // a prism over a hexagon whose middle and edges hold points too
+    for (const auto& [x, y] : {std::pair{2., 0.},
+                               {4., 0.},
+                               {6., 2.},
+                               {4., 4.},
+                               {2., 4.},
+                               {0., 2.},
+                               {3., 0.},
+                               {3., 4.},
+                               {1., 1.},
+                               {3., 2.},
+                               {5., 3.}}) {
+      prism.push_back({x, y, double(i)});
+    }
+  }
+  EXPECT_EQ(hull_of(grid).vertices.size(), 8u);
+  EXPECT_EQ(hull_of(grid).faces.size(), 12u);
+  EXPECT_EQ(hull_of(prism).vertices.size(), 12u);
+  EXPECT_EQ(hull_of(prism).faces.size(), 4u + 4u + 12u);
+}
+
 }  // namespace
 }  // namespace copse

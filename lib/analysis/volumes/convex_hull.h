@@ -31,7 +31,7 @@ struct ConvexHull {
   // Orthonormal, right-handed: the first `dimension` of them span the line or plane through vertices[0].
   std::array<Double3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-  // Distinct, in lexicographic order; at least one. Now and then one lies on a facet and is no corner.
+  // Distinct, in lexicographic order; at least one.
   std::vector<Double3> vertices;
   std::vector<std::uint32_t> indices;               // of the vertices among the caller's points
   std::vector<std::array<std::uint32_t, 3>> faces;  // dimension 3: triangles, counter-clockwise from outside

@@ -11,8 +11,10 @@
 namespace copse {
 
 struct ExactHull {
-  std::vector<std::uint32_t> vertices;              // indices of the points, ascending
-  std::vector<std::array<std::uint32_t, 3>> faces;  // of `vertices`, counter-clockwise from outside, sorted
+  std::vector<std::uint32_t> vertices;  // indices of the points, ascending: the corners and no other point
+  // Of `vertices`, counter-clockwise from outside, sorted. A facet of more than three corners is a fan around
+  // the first of them: the hull is a function of the points alone.
+  std::vector<std::array<std::uint32_t, 3>> faces;
 };
 
 // `points`: distinct, in lexicographic order, four of them not in one plane (else the hull is empty).
