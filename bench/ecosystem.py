@@ -15,6 +15,7 @@ import sys
 import tempfile
 import time
 
+AXIS = "axis off the terrain's normal"
 SIZES = [10_000, 100_000, 1_000_000, 10_000_000]
 
 
@@ -65,7 +66,7 @@ def main():
             seconds, cpu, report, size = run(folder, count, placement, encoding)
             stages = ", ".join(f"{s['name']} {s['seconds']:.2f}" for s in report["stages"] if s["seconds"] >= 0.005)
             print(f"{count:>10d} {placement:>10s} {24 if encoding == 'packed' else 48:>10d} {seconds:>7.2f} {cpu:>7.2f} {size / 1e6:>7.1f} {floor(folder, size):>8.2f} "
-                  f"{error(report, 'stored position'):>11.1e} {error(report, "axis off the terrain's normal"):>9.1e} {error(report, 'foot off the ground'):>8.1e}  {stages}", flush=True)
+                  f"{error(report, 'stored position'):>11.1e} {error(report, AXIS):>9.1e} {error(report, 'foot off the ground'):>8.1e}  {stages}", flush=True)
             subprocess.run(["probe_ecosystem", str(folder / "f.eco")], check=True)
 
 

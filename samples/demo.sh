@@ -41,8 +41,9 @@ while read -r name arguments; do
   # shellcheck disable=SC2086  # the arguments of a tree are several words
   "$bin/treegrow" $arguments -o "$forest/$name.glb" -q
   "$bin/treeprep" "$forest/$name.glb" -o "$forest/$name.stree" -q
+  "$bin/bvfit" "$forest/$name.stree" -o "$forest/$name.stree" --per whole --sway 4 -q
 done <samples/forest/trees.txt
-step treegrow "$forest/*.glb; treeprep: $forest/*.stree"
+step treegrow "$forest/*.glb; treeprep, bvfit: $forest/*.stree"
 python3 samples/forest/maps.py "$forest"
 cp samples/forest/forest.json "$forest/forest.json"
 step maps "$forest/*.png"

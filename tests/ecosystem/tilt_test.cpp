@@ -80,5 +80,18 @@ TEST(Tilt, NormalsThatAreNoneStandUpright) {
   EXPECT_NEAR(upward({1e-300, 1e-300, 0}).y, std::sqrt(0.5), 1e-15);
 }
 
+TEST(Tilt, LeaningOverKeepsTheHead) {
+  Random random(11);
+  for (int i = 0; i < 2000; ++i) {
+    const Double3 from = random_normal(random), to = random_normal(random);
+    const double head = random.uniform(-180, 180);
+    const Quaternion there = leaned(with_head(tilt_to(from), head), to);
+    EXPECT_LT(distance(rotate(there, {0, 1, 0}), to), 1e-14);
+    const Quaternion wanted = with_head(tilt_to(to), head);
+    for (const Double3& v : {Double3{1, 0, 0}, {0, 0, 1}})
+      EXPECT_LT(distance(rotate(there, v), rotate(wanted, v)), 1e-13);
+  }
+}
+
 }  // namespace
 }  // namespace copse

@@ -45,7 +45,9 @@ Quaternion with_head(const Quaternion& tilt, double head) {
 }
 
 Quaternion leaned(const Quaternion& rotation, const Double3& normal) {
-  const Quaternion was = tilt_to(rotate(rotation, {0, 1, 0}));
+  const Double3 axis = rotate(rotation, {0, 1, 0}), off = axis - normal;
+  if (dot(off, off) < 1e-28) return rotation;  // it is the one, but for rounding
+  const Quaternion was = tilt_to(axis);
   return product(tilt_to(normal), product({-was[0], -was[1], -was[2], was[3]}, rotation));
 }
 
