@@ -113,11 +113,25 @@ TEST(DensityField, NothingStandsWhereThereIsNoGround) {
   EXPECT_NEAR(f.total(), 64 * 64 / 2.0, 33);
 }
 
-TEST(DensityField, TheGridFollowsMapsAndCountsUpToALimit) {
-  EXPECT_EQ(field_side(0, 1), 64u);
-  EXPECT_EQ(field_side(500, 1), 1000u);
-  EXPECT_EQ(field_side(0, 250000), 500u);
-  EXPECT_EQ(field_side(4096, 1), k_most_field_cells);
+TEST(DensityField, TheGridFollowsMapsCountsAndClustersUpToALimit) {
+  const auto side = [](std::uint32_t map, std::uint64_t instances, Clusters clusters = {}) {
+    return field_side(map, instances, clusters, k_area);
+  };
+  EXPECT_EQ(side(0, 1), 64u);
+  EXPECT_EQ(side(500, 1), 1000u);
+  EXPECT_EQ(side(0, 250000), 500u);
+  EXPECT_EQ(side(4096, 1), k_most_field_cells);
+  EXPECT_EQ(side(0, 1, {.count = 3, .radius = 0.5}), 512u);  // of 64 m
+  EXPECT_EQ(side(0, 1, {.count = 3, .radius = 1e-6}), k_most_field_cells);
+}
+
+TEST(DensityField, ClustersSmallerThanACellAreNotLost) {
+  PlacementRules rules;
+  rules.clusters = {.count = 40, .radius = 1e-3};
+  const DensityField f = World().field(rules);
+  const auto cells = std::count_if(f.weights.begin(), f.weights.end(), [](double w) { return w > 0; });
+  EXPECT_GE(cells, 30);  // two may share a cell
+  EXPECT_LE(cells, 3 * 40);
 }
 
 }  // namespace

@@ -193,7 +193,10 @@ class Builder {
         shares.push_back(*share);
         largest = std::max({largest, (*share)->width, (*share)->height});
       }
-      const std::uint32_t side = field_side(largest, mix.count);
+      // One grid for all, so that what they sum up to can be compared.
+      std::uint32_t side = 0;
+      for (const MixSource::Part& part : mix.parts)
+        side = std::max(side, field_side(largest, mix.count, plans_[part.type].rules.clusters, area));
       std::vector<double> weights;
       for (std::size_t i = 0; i < mix.parts.size(); ++i) {
         PlacementRules& rules = plans_[mix.parts[i].type].rules;

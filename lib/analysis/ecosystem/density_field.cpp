@@ -62,20 +62,37 @@ void transform_line(std::vector<double>& f, double step, std::vector<double>& ou
   }
 }
 
-struct ClusterKernel {
+// How much the clusters leave of every cell: 1 at a centre, smoothly 0 at the radius; where clusters meet the
+// nearer one counts. A cluster smaller than a cell still has the cell that it is in.
+std::vector<double> cluster_kernel(const Clusters& clusters, const DensityField& f, const Random& random) {
+  const double w = f.area.width() / f.columns, d = f.area.depth() / f.rows;
+  const double radius = std::max(clusters.radius, 0.51 * std::sqrt(w * w + d * d)), most = radius * radius;
   std::vector<Double3> centres;
-  double radius = 1;
-  // Smooth, 1 at a centre and 0 at the radius; where clusters meet the nearer one counts.
-  double at(double x, double z) const {
-    double nearest = radius * radius;
-    for (const Double3& c : centres) {
-      const double dx = x - c.x, dz = z - c.z;
-      nearest = std::min(nearest, dx * dx + dz * dz);
-    }
-    const double t = 1 - nearest / (radius * radius);
-    return t * t;
+  for (std::uint32_t i = 0; i < clusters.count; ++i) {
+    Random stream = random.fork(i);
+    centres.push_back({stream.uniform(f.area.x0, f.area.x1), 0, stream.uniform(f.area.z0, f.area.z1)});
   }
-};
+  std::vector<double> kernel(f.weights.size(), most);
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, f.rows), [&](const auto& range) {
+    for (std::uint32_t r = range.begin(); r < range.end(); ++r) {
+      double* row = kernel.data() + std::size_t{r} * f.columns;
+      const double z = f.area.z0 + (r + 0.5) / f.rows * f.area.depth();
+      for (const Double3& c : centres) {
+        const double dz = z - c.z, left = most - dz * dz;
+        if (!(left > 0)) continue;
+        const double reach = std::sqrt(left) / w, at = (c.x - f.area.x0) / w;
+        const auto first = static_cast<std::uint32_t>(std::max(at - reach - 1, 0.0));
+        const auto end = static_cast<std::uint32_t>(std::min(at + reach + 1, 1.0 * f.columns));
+        for (std::uint32_t k = first; k < end; ++k) {
+          const double dx = f.area.x0 + (k + 0.5) / f.columns * f.area.width() - c.x;
+          row[k] = std::min(row[k], dx * dx + dz * dz);
+        }
+      }
+      for (std::uint32_t k = 0; k < f.columns; ++k) row[k] = (1 - row[k] / most) * (1 - row[k] / most);
+    }
+  });
+  return kernel;
+}
 
 }  // namespace
 
@@ -94,8 +111,11 @@ double DensityField::total() const {
   return sum;
 }
 
-std::uint32_t field_side(std::uint32_t largest_map, std::uint64_t instances) {
-  const double wanted = std::max(2.0 * largest_map, std::sqrt(static_cast<double>(instances)));
+std::uint32_t field_side(std::uint32_t largest_map, std::uint64_t instances, const Clusters& clusters,
+                         const PlantedArea& area) {
+  double wanted = std::max(2.0 * largest_map, std::sqrt(static_cast<double>(instances)));
+  if (clusters.count > 0)
+    wanted = std::max(wanted, 4 * std::max(area.width(), area.depth()) / clusters.radius);
   return static_cast<std::uint32_t>(
       std::clamp(std::ceil(wanted), 64.0, static_cast<double>(k_most_field_cells)));
 }
@@ -148,11 +168,8 @@ DensityField make_field(const PlacementRules& rules, const PlantedArea& area, co
                         std::uint32_t columns, std::uint32_t rows, const Random& random) {
   DensityField field{area, columns, rows, std::vector<double>(std::size_t{columns} * rows)};
   const PlacementTest test(rules, area, ground);
-  ClusterKernel clusters{.centres = {}, .radius = rules.clusters.radius};
-  for (std::uint32_t i = 0; i < rules.clusters.count; ++i) {
-    Random stream = random.fork(i);
-    clusters.centres.push_back({stream.uniform(area.x0, area.x1), 0, stream.uniform(area.z0, area.z1)});
-  }
+  std::vector<double> clusters;
+  if (rules.clusters.count > 0) clusters = cluster_kernel(rules.clusters, field, random);
   const auto weight = [&](double x, double z) {
     double w = rules.density ? std::max(pixel_at(*rules.density, area, x, z), 0.0) : 1;
     if (w > 0 && rules.share_of) {
@@ -160,14 +177,17 @@ DensityField make_field(const PlacementRules& rules, const PlantedArea& area, co
       for (const ValueMap* share : rules.share_total) sum += std::max(pixel_at(*share, area, x, z), 0.0);
       w = sum > 0 ? w * std::max(pixel_at(*rules.share_of, area, x, z), 0.0) / sum : 0;
     }
-    if (w > 0 && !clusters.centres.empty()) w *= clusters.at(x, z);
     return w > 0 && test.allows(x, z) ? w : 0;
   };
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, rows), [&](const auto& range) {
     for (std::uint32_t r = range.begin(); r < range.end(); ++r)
-      for (std::uint32_t c = 0; c < columns; ++c)
-        field.weights[std::size_t{r} * columns + c] =
-            weight(area.x0 + (c + 0.5) / columns * area.width(), area.z0 + (r + 0.5) / rows * area.depth());
+      for (std::uint32_t c = 0; c < columns; ++c) {
+        const std::size_t i = std::size_t{r} * columns + c;
+        const double near = clusters.empty() ? 1 : clusters[i];
+        if (!(near > 0)) continue;
+        field.weights[i] = near * weight(area.x0 + (c + 0.5) / columns * area.width(),
+                                         area.z0 + (r + 0.5) / rows * area.depth());
+      }
   });
   return field;
 }

@@ -22,7 +22,7 @@ struct ValueRange {
 
 struct Clusters {
   std::uint32_t count = 0;  // 0: none
-  double radius = 1;        // m; nothing stands farther from every centre
+  double radius = 1;        // m; nothing stands farther from every centre (by more than a cell of the field)
 };
 
 // What limits one type. Maps may be null; they outlive the rules.
@@ -47,9 +47,10 @@ struct DensityField {
 
 inline constexpr std::uint32_t k_most_field_cells = 2048;  // a side
 
-// Cells a side for these maps and so many instances: at least 2 cells a pixel each way where that fits, and
-// at least as many cells as instances; at most k_most_field_cells.
-std::uint32_t field_side(std::uint32_t largest_map, std::uint64_t instances);
+// Cells a side for these maps, so many instances and these clusters: at least 2 cells a pixel each way, 4 a
+// radius and as many cells as instances, where that fits; at most k_most_field_cells.
+std::uint32_t field_side(std::uint32_t largest_map, std::uint64_t instances, const Clusters& clusters,
+                         const PlantedArea& area);
 
 // Weights at the centres of cells; 0 where there is no ground. Rows in parallel.
 DensityField make_field(const PlacementRules& rules, const PlantedArea& area, const TerrainGround& ground,

@@ -138,7 +138,7 @@ class Planter {
     std::uint32_t largest = 0;
     for (const ValueMap* m : {r.density, r.forbidden, r.share_of, r.distance_to})
       if (m) largest = std::max({largest, m->width, m->height});
-    const std::uint32_t side = field_side(largest, types_[t].count);
+    const std::uint32_t side = field_side(largest, types_[t].count, r.clusters, area_);
     return make_field(r, area_, ground_, side, side, stream(t, stream_clusters));
   }
 
