@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Levels of detail of the trees at ../shared/trees (and of treegrow's species) beside meshoptimizer: image error, area,
+"""Levels of detail of the trees at ../shared/trees (and of treegrow's species) beside meshoptimizer and gltfpack: image error, area,
 coverage, silhouette at the same triangle counts; speed of every stage; bytes.
 
 ./run bench lod               every tree
@@ -7,14 +7,26 @@ python3 bench/lod.py NAME...  the trees whose names begin so (the tools must be 
 """
 import json
 import math
+import os
 import pathlib
+import shutil
 import statistics
 import subprocess
 import sys
 import tempfile
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent
 TREES = pathlib.Path(__file__).resolve().parent.parent.parent / "shared" / "trees"
 SPECIES = ["oak", "birch", "willow", "spruce"]
+
+
+def find_gltfpack():
+    """gltfpack comes from npm, where that is there; without it its rows are left out."""
+    folder = ROOT / "build" / "npm"
+    if not shutil.which("gltfpack") and not (folder / "node_modules" / "gltfpack").exists() and shutil.which("npm"):
+        folder.mkdir(parents=True, exist_ok=True)
+        subprocess.run(["npm", "install", "--silent", "--no-fund", "--no-audit", "--prefix", str(folder), "gltfpack"], check=False)
+    os.environ["PATH"] += os.pathsep + str(folder / "node_modules" / ".bin")
 
 
 def run(*command):
@@ -49,7 +61,7 @@ def show(name, mesh, folder, ratios):
     for r in rows:
         print(f"  {r['Share']:>5s} {r['Method']:28s} {r['Triangles']:>8s} area {r['Area']:>6s} coverage {r['Coverage']:>6s} "
               f"IoU {r['Silhouette IoU']:>6s} RMSE {r['RMSE']:>7s} SSIM {r['SSIM']:>6s} hull {r['Hull growth']:>6s}")
-        key = "ours" if r["Method"] == "copse" else "peer" if r["Method"].startswith("meshopt") else None
+        key = "ours" if r["Method"] == "copse" else "peer" if r["Method"].startswith(("meshopt", "gltfpack")) else None
         # A simplifier that stops early shows more triangles: no match at this count.
         if key and float(r["Triangles"]) <= 1.15 * float(r["Share"]) * whole:
             at = best.setdefault(r["Share"], {})
@@ -61,6 +73,7 @@ def show(name, mesh, folder, ratios):
 
 def main():
     wanted = sys.argv[1:]
+    find_gltfpack()
     ratios = {}
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -73,7 +86,7 @@ def main():
         for mesh in meshes:
             if not wanted or any(mesh.name.startswith(w) for w in wanted):
                 show(mesh.name, mesh, folder, ratios)
-    print("\nRMSE of the better meshoptimizer / RMSE of copse, where meshoptimizer gets down to the triangles asked for")
+    print("\nRMSE of the best peer / RMSE of copse, where a peer gets down to the triangles asked for")
     for share, r in ratios.items():
         reached = [x for x in r if x < math.inf]
         middle = f"median {statistics.median(reached):.2f}, least {min(reached):.2f}, better on {sum(x > 1 for x in reached)}, " if reached else ""

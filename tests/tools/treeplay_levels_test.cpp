@@ -126,6 +126,30 @@ TEST_F(TreeplayLevels, BehindTheLastLevelComesTheImpostor) {
   EXPECT_NE(levels.back(), "3");
 }
 
+TEST_F(TreeplayLevels, LinesAndPointsTakeOverFromTrianglesWithDistance) {
+  const auto seen = [&](const char* camera, const char* what) {
+    return std::stoi(column({"--lod", "lines-points", "--camera", camera}, what).at(0));
+  };
+  const char *near = "0,6,4,0,6,0", *far = "0,6,70,0,6,0";
+  EXPECT_GT(seen(near, "triangles"), 4 * seen(far, "triangles"));
+  EXPECT_EQ(seen(near, "points"), 0);
+  EXPECT_GT(seen(far, "lines"), 0);
+  EXPECT_GT(seen(far, "points"), 0);
+  // What is drawn covers about what the triangles cover; points lie side by side where leaves overlap.
+  const auto covered = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--unlit", "--background", "black", "--no-ground", "--camera", "0,6,50,0,6,0",
+                             "--frames", folder_.file("far.png")});
+    EXPECT_EQ(play(tree_, more).status, 0);
+    const auto image = read_image(folder_.file("far.png"));
+    double sum = 0;
+    for (std::size_t p = 0; image && p < image->rgba.size(); p += 4) sum += image->rgba[p];
+    return sum;
+  };
+  const double triangles = covered({}), primitives = covered({"--lod", "lines-points"});
+  EXPECT_GT(primitives, 0.5 * triangles);
+  EXPECT_LT(primitives, 2 * triangles);
+}
+
 TEST_F(TreeplayLevels, WhatTheFileCannotDoIsSaidInOneLine) {
   const auto says = [&](const std::string& file, const std::vector<std::string>& more, int status,
                         const std::string& text) {
@@ -140,6 +164,7 @@ TEST_F(TreeplayLevels, WhatTheFileCannotDoIsSaidInOneLine) {
   says(folder_.file("oak.obj"), {"--lod", "auto"}, 1, "treeprep");
   says(levels_, {"--level", "7"}, 1, "numbered 7");
   says(levels_, {"--level", "1", "--ratio", "0.5"}, 2, "excludes");
+  says(folder_.file("oak.obj"), {"--lod", "lines-points"}, 1, "treeprep");
   says(levels_, {"--lod", "magic"}, 2, "--lod");
   ASSERT_EQ(bake({}).status, 0);
   says(levels_, {"--lod", "spectrum"}, 1, "--continuous");

@@ -152,10 +152,13 @@ void add_options(CLI::App& app, Options& options) {
                            ->type_name("E");
   CLI::Option* lod =
       add_choice<Lod>(*detail, "--lod", options.detail.lod,
-                      "by distance: the discrete levels with their hysteresis (auto) or everything in "
-                      "between (spectrum)",
-                      {{"off", Lod::off}, {"spectrum", Lod::spectrum}, {"auto", Lod::automatic}});
-  lod->type_name("off|spectrum|auto");
+                      "by distance: the discrete levels with their hysteresis (auto), everything in between "
+                      "(spectrum), or thin segments as lines and far leaves as points (any tree)",
+                      {{"off", Lod::off},
+                       {"lines-points", Lod::lines_points},
+                       {"spectrum", Lod::spectrum},
+                       {"auto", Lod::automatic}});
+  lod->type_name("off|lines-points|spectrum|auto");
   level->excludes(ratio)->excludes(error)->excludes(lod);
   ratio->excludes(error)->excludes(lod);
   error->excludes(lod);

@@ -127,12 +127,24 @@ ToolInfo info() {
 namespace {
 
 // Trees of an ecosystem go by distance, each by the levels that its file has; --level 0 is full detail.
-bool wants_levels(const Options& options, bool window) {
-  if (options.input.extension() == ".eco") return !options.detail.level;
-  return window || options.detail.needs_levels();
+Wanted wanted_of(const Options& options, bool window) {
+  if (options.input.extension() == ".eco") return {.levels = !options.detail.level, .lines_points = false};
+  // Lines and points are made of the tree itself.
+  const bool lines_points = options.detail.lod == Lod::lines_points;
+  return {.levels = (window || options.detail.needs_levels()) && !lines_points, .lines_points = lines_points};
 }
 
 Result<void> check_detail(const Scene& scene, const Options& options) {
+  const bool lines_points = options.detail.lod == Lod::lines_points;
+  if (lines_points && scene.eco) {
+    return fail(Fault::usage, options.input.string(),
+                "is an ecosystem, whose trees are not drawn as lines and points",
+                "leave --lod lines-points out, or name one of its trees");
+  }
+  if (lines_points && !scene.lines_points) {
+    return refuse(options.input.string(), "is no tree, and has no lines and points",
+                  "make a tree of it with treeprep");
+  }
   if (!scene.eco || !options.detail.names_one() || options.detail.level == std::uint64_t{0}) return {};
   return fail(Fault::usage, options.input.string(),
               "is an ecosystem, whose trees take their levels by distance",
@@ -151,7 +163,7 @@ Result<void> run(const Options& options, Context& context) {
                 "write pictures with --frames NAME.png, or only measure with --headless");
   }
   plan->settings.lights = window || plan->look.lit;
-  const auto scene = load_scene(options.input, plan->settings.lights, wants_levels(options, window), context);
+  const auto scene = load_scene(options.input, plan->settings.lights, wanted_of(options, window), context);
   if (!scene) return std::unexpected(scene.error());
   if (auto fits = check_detail(*scene, options); !fits) return fits;
   auto choice = LevelChoice::make(scene->levels, scene->eco ? DetailWish{} : options.detail, options.input);

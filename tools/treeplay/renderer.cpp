@@ -59,6 +59,11 @@ Result<std::unique_ptr<Renderer>> Renderer::make(const Scene& scene, const Rende
     if (auto done = r->skeleton_.upload(*scene.skeleton); !done) return std::unexpected(done.error());
   }
   if (scene.levels) r->level_ = full_detail(scene.levels->spectra());
+  if (scene.lines_points) {
+    auto pass = SkeletonPass::make();
+    if (!pass) return std::unexpected(pass.error());
+    r->primitives_ = std::move(*pass);
+  }
   if (scene.levels && scene.levels->impostor()) {
     auto impostor = ImpostorPass::make();
     if (!impostor) return std::unexpected(impostor.error());
@@ -208,6 +213,15 @@ FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int 
     plan.triangles = plan.shown.impostor ? 2
                      : scene_.levels     ? scene_.levels->triangles(plan.shown.level)
                                          : scene_.triangles();
+  if (scene_.lines_points && shows_surface(look.show)) {
+    const Double3 forward = plan.view.frame.back * -1.0;
+    scene_.lines_points->select(scene_.geometry, eye - scene_.geometry.origin, forward,
+                                2 * plan.view.tan_half_y / height,
+                                look.lit ? to_float(settings_.sun) : Float3{}, plan.primitives);
+    plan.triangles = plan.primitives.indices.size() / 3;
+    plan.lines = plan.primitives.lines.size();
+    plan.points = plan.primitives.points.size();
+  }
   if (look.show != Show::surface) {
     plan.lines = skeleton_.lines();
     plan.points = skeleton_.points();
@@ -288,6 +302,10 @@ Result<void> Renderer::draw(const FramePlan& plan, GLuint framebuffer) {
   if (auto done = fit_tile_buffers(tile_width * s, tile_height * s); !done) return done;
   if (scene_.eco) surfaces_.show(scene_, plan.runs);
   take_level(plan.shown);
+  if (scene_.lines_points) {
+    surfaces_.replace(plan.primitives.indices, plan.primitives.ranges);
+    if (auto done = primitives_.upload(plan.primitives.lines, plan.primitives.points); !done) return done;
+  }
   const Mat4 camera = plan.view.rotation;
   for (int y = 0; y < plan.height; y += tile_height) {
     for (int x = 0; x < plan.width; x += tile_width) {
@@ -352,6 +370,7 @@ void Renderer::draw_tile(const FramePlan& plan, const Tile& tile) {
       draw_impostor(plan, tile);
     else
       draw_surfaces(plan, tile, show == Show::both ? 0.6f : 0);
+    if (scene_.lines_points) draw_primitives(plan, tile);
   }
   draw_backdrop(plan, tile);
   if (plan.tree_visible && show != Show::surface) draw_skeleton(plan, tile);
@@ -415,18 +434,34 @@ void Renderer::draw_backdrop(const FramePlan& plan, const Tile& tile) const {
   glDisable(GL_BLEND);
 }
 
-void Renderer::draw_skeleton(const FramePlan& plan, const Tile& tile) {
-  if (!scene_.skeleton) return;
+SkeletonPass::Frame Renderer::line_frame(const FramePlan& plan, const Tile& tile) const {
   SkeletonPass::Frame frame;
   frame.clip = tile.clip;
   frame.offset = tile.offset;
   frame.view = &plan.view;
   frame.fragment_angle =
       static_cast<float>(2 * plan.view.tan_half_y / (static_cast<double>(plan.height) * tile.sub_pixels));
+  frame.sun = to_float(settings_.sun);
+  return frame;
+}
+
+// As wide as they were chosen to be, in the colours that they came with.
+void Renderer::draw_primitives(const FramePlan& plan, const Tile& tile) {
+  SkeletonPass::Frame frame = line_frame(plan, tile);
+  frame.thinnest = 0;
+  frame.lit = false;
+  glDepthFunc(GL_LESS);
+  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  primitives_.draw_lines(frame);
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+}
+
+void Renderer::draw_skeleton(const FramePlan& plan, const Tile& tile) {
+  if (!scene_.skeleton) return;
+  SkeletonPass::Frame frame = line_frame(plan, tile);
   frame.thinnest = 0.7f * static_cast<float>(tile.sub_pixels);
   frame.scale = plan.look.show == Show::both ? 0.45f : 1.0f;
   frame.lit = plan.look.lit;
-  frame.sun = to_float(settings_.sun);
   // Over a surface the lines are always seen: they are what is looked at.
   if (plan.look.show == Show::both) glClear(GL_DEPTH_BUFFER_BIT);
   glDepthFunc(GL_LESS);

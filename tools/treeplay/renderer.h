@@ -39,9 +39,10 @@ struct FramePlan {
   View view;
   int width = 0, height = 0;
   bool tree_visible = true;
-  std::vector<CopyRun> runs;  // of an ecosystem: what is seen
-  ShownLevel shown;           // of a tree with levels
-  double distance = 0;        // of the eye from the middle of what is drawn, metres
+  std::vector<CopyRun> runs;      // of an ecosystem: what is seen
+  ShownLevel shown;               // of a tree with levels
+  LinesPoints::Frame primitives;  // with --lod lines-points
+  double distance = 0;            // of the eye from the middle of what is drawn, metres
   // What was done and what will be drawn, for the statistics.
   std::uint64_t triangles = 0, lines = 0, points = 0;
   std::uint64_t instances_tested = 0, instances_drawn = 0, plane_tests = 0;
@@ -79,6 +80,8 @@ class Renderer {
   void draw_surfaces(const FramePlan& plan, const Tile& tile, float ghost) const;
   void draw_impostor(const FramePlan& plan, const Tile& tile) const;
   void draw_backdrop(const FramePlan& plan, const Tile& tile) const;
+  SkeletonPass::Frame line_frame(const FramePlan& plan, const Tile& tile) const;
+  void draw_primitives(const FramePlan& plan, const Tile& tile);
   void draw_skeleton(const FramePlan& plan, const Tile& tile);
   void resolve(const Tile& tile, GLuint framebuffer) const;
 
@@ -91,7 +94,7 @@ class Renderer {
   TreeGeometry level_geometry_;  // its indices and ranges
   SurfacePass surfaces_;
   ImpostorPass impostor_;
-  SkeletonPass skeleton_;
+  SkeletonPass skeleton_, primitives_;
   Program ground_, backdrop_, resolve_;
   VertexArray no_vertices_;
   Mat4 shadow_matrix_;  // local -> [0, 1]^3

@@ -105,7 +105,26 @@ void load_images(Scene& scene, const std::vector<Texture>& textures, const fs::p
   }
 }
 
-Result<void> take_tree(Scene& scene, const fs::path& path, bool levels, Context& context) {
+// The mean colour of what a material covers.
+Float3 flat_colour(const Scene& scene, std::uint32_t material, DrawPart part) {
+  const Material m = material_of(scene, {.part = part, .material = material});
+  return {m.diffuse.x * m.mean_colour.x, m.diffuse.y * m.mean_colour.y, m.diffuse.z * m.mean_colour.z};
+}
+
+Result<void> take_lines_points(Scene& scene, const Tree& tree, const fs::path& path) {
+  const bool lines = tree.trunk.diameters.size() == tree.trunk.lines.size(),
+             points = tree.leaves.centres.size() == tree.leaf_count() &&
+                      tree.leaves.order.size() == tree.leaf_count();
+  if (!lines || !points)
+    return refuse(path.string(), "lacks what lines and points are drawn from",
+                  "prepare the tree without --omit of lines, points or groups");
+  scene.lines_points.emplace(tree, scene.geometry.ranges, [&](std::uint32_t material, DrawPart part) {
+    return flat_colour(scene, material, part);
+  });
+  return {};
+}
+
+Result<void> take_tree(Scene& scene, const fs::path& path, const Wanted& wanted, Context& context) {
   auto file = TreeFile::open(path);
   if (!file) return std::unexpected(file.error());
   auto tree = file->load();
@@ -113,7 +132,7 @@ Result<void> take_tree(Scene& scene, const fs::path& path, bool levels, Context&
   context.read(path, true);
   scene.is_tree = true;
   scene.geometry = make_geometry(*tree);
-  if (levels) {
+  if (wanted.levels) {
     auto loaded = TreeLevels::load(*file, *tree);
     if (!loaded) return std::unexpected(loaded.error());
     scene.levels = std::move(*loaded);
@@ -127,6 +146,9 @@ Result<void> take_tree(Scene& scene, const fs::path& path, bool levels, Context&
   }
   scene.skeleton = make_skeleton(*tree);
   scene.materials = tree->materials;
+  if (wanted.lines_points) {
+    if (auto taken = take_lines_points(scene, *tree, path); !taken) return taken;
+  }
   load_images(scene, tree->textures, path, context);
   return {};
 }
@@ -143,10 +165,10 @@ Result<void> take_mesh(Scene& scene, const fs::path& path, Context& context) {
   return {};
 }
 
-Result<void> take(Scene& scene, const fs::path& path, bool levels, Context& context) {
-  if (extension_of(path) == ".eco") return take_ecosystem(scene, path, levels, context);
+Result<void> take(Scene& scene, const fs::path& path, const Wanted& wanted, Context& context) {
+  if (extension_of(path) == ".eco") return take_ecosystem(scene, path, wanted.levels, context);
   const auto taken =
-      is_tree_file(path) ? take_tree(scene, path, levels, context) : take_mesh(scene, path, context);
+      is_tree_file(path) ? take_tree(scene, path, wanted, context) : take_mesh(scene, path, context);
   scene.copies.resize(1);
   scene.groups = {{.range_count = static_cast<std::uint32_t>(scene.geometry.ranges.size()),
                    .instance_count = 1,
@@ -172,12 +194,12 @@ std::optional<Image> read_texture(const Texture& texture, std::size_t index, con
   return std::move(*image);
 }
 
-Result<Scene> load_scene(const fs::path& path, bool lights, bool levels, Context& context) {
+Result<Scene> load_scene(const fs::path& path, bool lights, const Wanted& wanted, Context& context) {
   Scene scene;
   scene.name = path.filename().string();
   {
     Stage stage = context.stage("load");
-    auto taken = take(scene, path, levels, context);
+    auto taken = take(scene, path, wanted, context);
     if (!taken) return std::unexpected(taken.error());
     stage.items(scene.triangles(), "triangles");
   }
@@ -195,6 +217,7 @@ Result<Scene> load_scene(const fs::path& path, bool lights, bool levels, Context
     opacity.push_back(m.alpha * (m.alpha_cutoff > 0 ? m.alpha_coverage : 1));
   }
   scene.sky = make_sky_light(scene.geometry, opacity);
+  if (scene.lines_points) scene.lines_points->take_light(scene.sky);
   stage.items(scene.sky.cells.size(), "cells");
   return scene;
 }

@@ -9,6 +9,7 @@
 #include "lib/runtime/sky_light.h"
 #include "lib/runtime/tree_geometry.h"
 #include "tools/common/tool.h"
+#include "tools/treeplay/lines_points.h"
 #include "tools/treeplay/tree_levels.h"
 
 #include <array>
@@ -53,6 +54,7 @@ struct Scene {
   std::vector<CopyRun> runs;                 // of an ecosystem, block after block
   std::vector<std::uint32_t> first_run;      // blocks + 1
   std::shared_ptr<const TreeLevels> levels;  // of a tree that has them, when they were asked for
+  std::optional<LinesPoints> lines_points;   // of a tree, when they were asked for
   std::vector<Float3> full_detail;           // then: the vertices of full detail
   std::optional<Skeleton> skeleton;          // of a tree that has a hierarchy, lines or leaf groups
   std::vector<Material> materials;
@@ -78,7 +80,11 @@ std::optional<Image> read_texture(const Texture& texture, std::size_t index,
 // Reads a .tree, .stree or .eco, or any mesh that treeprep reads. Images that cannot be read are warned about
 // and give way to the material's mean colour. `lights`: whether anything lit will be drawn; if not, `sky` is
 // open.
-// `levels`: whether the tree's levels of detail will be drawn; a mesh or an ecosystem has none.
-Result<Scene> load_scene(const std::filesystem::path& path, bool lights, bool levels, Context& context);
+// What of a tree is loaded beside its surface; a mesh or an ecosystem has neither.
+struct Wanted {
+  bool levels = false, lines_points = false;
+};
+Result<Scene> load_scene(const std::filesystem::path& path, bool lights, const Wanted& wanted,
+                         Context& context);
 
 }  // namespace copse::treeplay

@@ -98,21 +98,29 @@ Result<void> SkeletonPass::upload(const Skeleton& skeleton) {
   }
   sorted_ = spheres_;
   by_distance_.resize(spheres_.size());
+  if (auto done = upload(lines, discs); !done) return done;
+  sphere_array_ = make_vertex_array();
+  sphere_buffer_ = make_buffer();
+  fill(sphere_array_, sphere_buffer_, spheres_, GL_DYNAMIC_DRAW);
+  disc_attributes();
+  return check_gl("uploading the skeleton");
+}
+
+Result<void> SkeletonPass::upload(const std::vector<Line>& lines, const std::vector<Disc>& discs) {
   line_count_ = lines.size();
   disc_count_ = discs.size();
-
-  for (VertexArray* array : {&line_array_, &disc_array_, &sphere_array_}) *array = make_vertex_array();
-  for (Buffer* buffer : {&line_buffer_, &disc_buffer_, &sphere_buffer_}) *buffer = make_buffer();
-  fill(line_array_, line_buffer_, lines, GL_STATIC_DRAW);
+  for (VertexArray* array : {&line_array_, &disc_array_})
+    if (!*array) *array = make_vertex_array();
+  for (Buffer* buffer : {&line_buffer_, &disc_buffer_})
+    if (!*buffer) *buffer = make_buffer();
+  fill(line_array_, line_buffer_, lines, GL_DYNAMIC_DRAW);
   attribute(0, 3, GL_FLOAT, sizeof(Line), offsetof(Line, from));
   attribute(1, 3, GL_FLOAT, sizeof(Line), offsetof(Line, to));
   attribute(2, 2, GL_FLOAT, sizeof(Line), offsetof(Line, radius_from));
   attribute(3, 4, GL_UNSIGNED_BYTE, sizeof(Line), offsetof(Line, tint));
-  fill(disc_array_, disc_buffer_, discs, GL_STATIC_DRAW);
+  fill(disc_array_, disc_buffer_, discs, GL_DYNAMIC_DRAW);
   disc_attributes();
-  fill(sphere_array_, sphere_buffer_, spheres_, GL_DYNAMIC_DRAW);
-  disc_attributes();
-  return check_gl("uploading the skeleton");
+  return check_gl("uploading lines and points");
 }
 
 void SkeletonPass::set_common(const Program& program, const Frame& frame) {

@@ -4,6 +4,7 @@
 
 #include "lib/runtime/camera.h"
 #include "tools/treeplay/gl.h"
+#include "tools/treeplay/primitives.h"
 #include "tools/treeplay/scene.h"
 
 #include <array>
@@ -14,8 +15,14 @@ namespace copse::treeplay {
 
 class SkeletonPass {
  public:
+  using Colour = Tint;
+  using Line = FlatLine;
+  using Disc = FlatDisc;
+
   static Result<SkeletonPass> make();
   Result<void> upload(const Skeleton& skeleton);
+  // Any lines and discs instead of a skeleton's, also frame after frame.
+  Result<void> upload(const std::vector<Line>& lines, const std::vector<Disc>& discs);
 
   struct Frame {
     Mat4 clip;
@@ -35,17 +42,6 @@ class SkeletonPass {
   std::uint64_t spheres() const { return spheres_.size(); }
 
  private:
-  using Colour = std::array<std::uint8_t, 4>;
-  struct Line {
-    Float3 from, to;
-    float radius_from = 0, radius_to = 0;
-    Colour tint{};
-  };
-  struct Disc {
-    Float3 centre;
-    float radius = 0;
-    Colour tint{};
-  };
   static Colour colour_of_level(std::uint32_t level);
   static Colour colour_of_group(std::uint32_t group);
   static void set_common(const Program& program, const Frame& frame);
