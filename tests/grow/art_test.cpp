@@ -57,6 +57,13 @@ TEST_P(ArtOf, IsTheSameEveryTimeAndDiffersFromSeedToSeed) {
 INSTANTIATE_TEST_SUITE_P(Species, ArtOf, testing::ValuesIn(species_names()),
                          [](const auto& test) { return test.param; });
 
+// All triangles of a small tree with huge rings go into its trunk.
+TEST(Art, ATreeWithoutLeavesHasNoPictureOfThem) {
+  Order order = small_order("pine", "huge-rings");
+  EXPECT_EQ(paint(order, 1, k_size).size(), 1u);
+  EXPECT_EQ(paint(order, 2, k_size).size(), 2u);
+}
+
 TEST(Art, BarkTiles) {
   // The step over the edge is no larger than the steps inside are, line by line.
   for (int art = 0; art < 8; ++art) {

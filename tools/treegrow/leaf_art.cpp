@@ -327,8 +327,10 @@ std::vector<Image> paint(const Order& order, std::size_t materials, int size) {
     return images;
   }
   images.push_back(paint_bark(s.bark, s.bark_colour, size, order.seed).image(false));
+  // A tree whose triangles all went into its trunk has no leaves and no material for them.
+  const bool may_have_leaves = materials > 1 || order.breaks.has(Break::one_material);
   const bool leaves = s.leaves.art != LeafArt::none && !order.breaks.has(Break::blobs);
-  if (!leaves) return images;
+  if (!leaves || !may_have_leaves) return images;
   Image leaf = paint_leaves(s.leaves, triangular, size, order.seed).image(true);
   if (order.breaks.has(Break::one_material)) {
     images[0] = beside(images[0], leaf);
