@@ -53,10 +53,12 @@ class Attacher {
         bases_(bases.begin(), bases.end()) {}
 
   std::vector<Attachment> run() {
-    measure_limbs();
-    find_candidates();
-    mark_buried();
-    const Habit usual = habit();
+    look_round();
+    Habit usual = habit();
+    if (turn_doubtful(usual)) {
+      look_round();
+      usual = habit();
+    }
     for (std::uint32_t l = 0; l < bases_.size(); ++l) rate(l, usual);
     choose();
     std::vector<Attachment> attachments(bases_.size());
@@ -69,7 +71,14 @@ class Attacher {
   }
 
  private:
+  void look_round() {
+    measure_limbs();
+    find_candidates();
+    mark_buried();
+  }
   void measure_limbs();
+  bool turn_doubtful(const Habit& usual);
+  double cost_by_other_end(std::uint32_t limb, const Habit& usual);
   void find_candidates();
   void find_candidates(std::uint32_t limb);
   bool find_turned(std::uint32_t limb);
@@ -189,6 +198,7 @@ bool Attacher::stands_on_ground(std::uint32_t limb, std::span<const Candidate> c
 
 void Attacher::find_candidates() {
   first_.assign(1, 0);
+  candidates_.clear();
   for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
     if (bases_[limb] != k_none) find_candidates(limb);
     first_.push_back(static_cast<std::uint32_t>(candidates_.size()));
@@ -307,6 +317,46 @@ double Attacher::cost(const Candidate& c, const Habit& habit) {
   const double ratio = habit.ratio_spread > 0 ? std::abs(c.ratio - habit.ratio) / habit.ratio_spread : 0;
   return levelled(offset, k_cost_offset) + levelled(ratio, k_cost_ratio) + k_cost_too_thin * c.too_thin +
          k_cost_buried * c.buried + c.doubt;
+}
+
+// What it costs at least to hang a limb on another one by the end that is not its base. What itself begins
+// there is no parent.
+double Attacher::cost_by_other_end(std::uint32_t limb, const Habit& usual) {
+  const std::uint32_t end = other_end_[limb];
+  const double radius = limbs_.diameter[end] / 2;
+  segments_.tree.near(limbs_.centre[end], k_contact_reach * radius, radius / 2, limb, k_candidates, found_);
+  drop_plates();
+  double least = std::numeric_limits<double>::infinity();
+  for (const Nearness& near : found_) {
+    const Candidate c = candidate(near, end, radius);
+    const std::uint32_t base = bases_[c.limb];
+    const bool begins_here =
+        base != k_none && distance(limbs_.centre[base], limbs_.centre[end]) <= 2 * radius;
+    if (!begins_here) least = std::min(least, cost(c, usual));
+  }
+  return least;
+}
+
+// A limb as thick at one end as at the other, and near something with both, begins with the end that is set
+// as the bases of this file are. Whether there was any to turn.
+bool Attacher::turn_doubtful(const Habit& usual) {
+  const std::vector<std::uint8_t> possible = possible_bases(limbs_, end_rings(limbs_));
+  bool turned = false;
+  std::vector<std::uint32_t> bases = bases_;
+  for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
+    const std::uint32_t base = bases_[limb], end = other_end_[limb];
+    if (base == k_none || end == k_none || !possible[base] || !possible[end]) continue;
+    if (limbs_.diameter[end] <= 0 || ground_.is_below(base) || ground_.is_floor(base)) continue;
+    const auto candidates = std::span(candidates_).subspan(first_[limb], first_[limb + 1] - first_[limb]);
+    double now = std::numeric_limits<double>::infinity();
+    for (const Candidate& c : candidates) now = std::min(now, cost(c, usual));
+    if (candidates.empty() || now <= k_cost_turn || cost_by_other_end(limb, usual) + k_cost_turn >= now)
+      continue;
+    bases[limb] = end;
+    turned = true;
+  }
+  bases_ = std::move(bases);
+  return turned;
 }
 
 // The costs of a limb's possible parents. Where a parent bends or changes its thickness, the segment that the

@@ -26,8 +26,8 @@ struct Attachment {
 // where twigs cross and several parents are possible, the one that fits it best is taken. Parents that are
 // thinner than the child cost more, as do the buried start of a sibling and a gap; to be a root costs
 // something as well, most for a high and thin limb. All limbs together are attached in the cheapest way that
-// has no cycles (arborescence.h). A limb whose base is below the ground and that comes out of it is a root.
-// O(n log n).
+// has no cycles (arborescence.h). A limb that is as thick at both ends begins with the one that fits the
+// habit better by far. A limb whose base is below the ground and that comes out of it is a root. O(n log n).
 std::vector<Attachment> attach(const Limbs& limbs, const LimbSegments& segments, const Ground& ground,
                                std::span<const std::uint32_t> bases);
 

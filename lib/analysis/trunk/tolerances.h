@@ -98,5 +98,7 @@ inline constexpr double k_cost_too_thin = 60;
 inline constexpr double k_cost_buried = 2;
 inline constexpr double k_cost_doubt = 9;
 inline constexpr double k_cost_root = 30;
+// By how much less the other end must cost for a limb that may begin with either to be turned.
+inline constexpr double k_cost_turn = 4;
 
 }  // namespace copse
