@@ -41,13 +41,14 @@ Cards read_cards(const Mesh& mesh, const PieceTriangles& pieces, std::span<const
     cards.piece.push_back(p);
     cards.centre.push_back(box.min * 0.5 + box.max * 0.5);
     cards.area.push_back(area);
-    double reach = 0;
+    double square = 0;  // of the reach; only ratios of reaches matter, so that overflow may make two unlike
     for (const std::uint32_t t : pieces.of(p)) {
       for (const std::uint32_t v : mesh.triangles[t]) {
-        reach = std::max(reach, distance(mesh.positions[v], cards.centre.back()));
+        const Double3 d = mesh.positions[v] - cards.centre.back();
+        square = std::max(square, dot(d, d));
       }
     }
-    cards.reach.push_back(reach);
+    cards.reach.push_back(std::sqrt(square));
   }
   return cards;
 }

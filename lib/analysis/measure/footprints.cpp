@@ -45,6 +45,14 @@ std::uint64_t hash_of(const std::array<Float2, 3>& corners) {
   return h;
 }
 
+double area_of(const Mesh& mesh, const Triangle& t) {
+  const Double3& a = mesh.positions[t[0]];
+  const Double3 n = cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+  const double square = dot(n, n);
+  // The cheap way, but for triangles of less than 1e-75 m and more than 1e75 m.
+  return (square > 1e-300 && square < 1e300 ? std::sqrt(square) : length(n)) / 2;
+}
+
 // Finds footprints by their corners: an open-addressed table of indices into the list.
 class Table {
  public:
@@ -66,8 +74,9 @@ class Table {
     while (slots_[s] != k_none && list_[slots_[s]].corners != corners) s = (s + 1) & (slots_.size() - 1);
     return s;
   }
+  // By so much that all growing together costs a third of the adding: every slot is a miss of the caches.
   void grow() {
-    slots_.assign(2 * slots_.size(), k_none);
+    slots_.assign(4 * slots_.size(), k_none);
     for (std::uint32_t i = 0; i < list_.size(); ++i) slots_[slot_of(list_[i].corners)] = i;
   }
 
@@ -82,9 +91,7 @@ Footprints footprints(const Mesh& mesh, std::span<const std::uint32_t> triangles
   Table table(out.list);
   std::array<Float2, 3> corners;
   for (const std::uint32_t t : triangles) {
-    const Triangle& v = mesh.triangles[t];
-    const Double3& a = mesh.positions[v[0]];
-    const double area = length(cross(mesh.positions[v[1]] - a, mesh.positions[v[2]] - a)) / 2;
+    const double area = area_of(mesh, mesh.triangles[t]);
     if (read_corners(mesh, t, tiles, corners)) {
       table.find_or_add(corners).area += area;
     } else {

@@ -32,6 +32,7 @@ class Buckets {
         next_(points) {}
   std::uint32_t first(std::uint64_t hash) const { return head_[hash & mask_]; }
   std::uint32_t next(std::uint32_t point) const { return next_[point]; }
+  void fetch(std::uint64_t hash) const { __builtin_prefetch(&head_[hash & mask_]); }
   void insert(std::uint64_t hash, std::uint32_t point) {
     next_[point] = head_[hash & mask_];
     head_[hash & mask_] = point;
@@ -42,18 +43,35 @@ class Buckets {
   std::vector<std::uint32_t> head_, next_;
 };
 
-// Joins equal positions; fills `representative`.
+std::uint64_t hash_of(const Double3& p) {
+  // + 0.0 makes -0 and 0 the same bits.
+  return hash_of(std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0),
+                 std::bit_cast<std::uint64_t>(p.z + 0.0));
+}
+
+// Joins equal positions; fills `representative`. Every look-up misses the caches, so they are asked for a
+// block ahead, first the bucket, then the point in it.
 void weld_equal(std::span<const Double3> p, std::vector<std::uint32_t>& representative) {
+  constexpr std::size_t k_block = 32;
   Buckets buckets(p.size());
-  for (std::uint32_t i = 0; i < p.size(); ++i) {
-    // + 0.0 makes -0 and 0 the same bits.
-    const std::uint64_t hash =
-        hash_of(std::bit_cast<std::uint64_t>(p[i].x + 0.0), std::bit_cast<std::uint64_t>(p[i].y + 0.0),
-                std::bit_cast<std::uint64_t>(p[i].z + 0.0));
-    std::uint32_t j = buckets.first(hash);
-    while (j != k_none && !(p[j] == p[i])) j = buckets.next(j);
-    representative[i] = j == k_none ? i : j;
-    if (j == k_none) buckets.insert(hash, i);
+  std::array<std::uint64_t, k_block> hashes;
+  for (std::size_t begin = 0; begin < p.size(); begin += k_block) {
+    const std::size_t end = std::min(p.size(), begin + k_block);
+    for (std::size_t i = begin; i < end; ++i) {
+      hashes[i - begin] = hash_of(p[i]);
+      buckets.fetch(hashes[i - begin]);
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t first = buckets.first(hashes[i - begin]);
+      if (first != k_none) __builtin_prefetch(&p[first]);
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint64_t hash = hashes[i - begin];
+      std::uint32_t j = buckets.first(hash);
+      while (j != k_none && !(p[j] == p[i])) j = buckets.next(j);
+      representative[i] = j == k_none ? static_cast<std::uint32_t>(i) : j;
+      if (j == k_none) buckets.insert(hash, static_cast<std::uint32_t>(i));
+    }
   }
 }
 
@@ -197,7 +215,10 @@ std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<co
 }
 
 std::vector<std::uint32_t> weld(std::span<const Double3> positions, double tolerance) {
-  return weld(positions, std::vector<double>(positions.size(), tolerance));
+  if (tolerance > 0) return weld(positions, std::vector<double>(positions.size(), tolerance));
+  std::vector<std::uint32_t> representative(positions.size());
+  weld_equal(positions, representative);
+  return representative;
 }
 
 std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const Triangle> triangles) {
