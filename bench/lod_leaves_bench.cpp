@@ -55,7 +55,7 @@ void row(const std::string& tree, const std::string& method, double ratio, const
          double seconds) {
   fmt::print(
       "{:24} {:10} {:5.3f} {:7} {:6.3f} {:6.3f} {:5.2f}-{:4.2f} {:6.3f} {:6.3f} {:7.4f} {:7.4f} {:7.4f} "
-      "{:8.2f}\n",
+      "{:8.3f}\n",
       tree, method, ratio, q.triangles, q.area_ratio, q.coverage_ratio, q.coverage_low, q.coverage_high,
       q.iou, q.iou_low, q.rmse, q.ssim, q.hull_growth,
       seconds > 0 ? double(q.source_triangles) / seconds / 1e6 : 0.0);
@@ -113,7 +113,7 @@ void bench(const std::filesystem::path& path, const Options& options) {
   const Looks looks{tree.materials, masks};
   const std::string name = path.stem().string();
   const auto start = Clock::now();
-  const Spectrum spectrum = collapse_spectrum(tree);
+  const Spectrum spectrum = collapse_spectrum(tree, looks);
   const double collapse_seconds = seconds_since(start);
   const DrawnMesh full = drawn_state(spectrum, 0);
   for (const double ratio : {0.5, 0.25, 0.1, 0.05, 0.02}) {

@@ -235,6 +235,13 @@ Double3 CrownField::way_back(std::span<const Double3> points, double margin) con
   return moved;
 }
 
+double CrownField::excess(std::span<const Double3> points) const {
+  double worst = 0;
+  for (std::size_t d = 0; width_ >= 0 && d < directions_.size(); ++d)
+    for (const Double3& p : points) worst = std::max(worst, dot(p - low_, directions_[d]) - support_[d]);
+  return worst;
+}
+
 double CrownField::exposure(const Double3& p) const {
   double outside = 0;
   const auto [x, y, z] = cell_of(p, outside);

@@ -43,6 +43,8 @@ class CrownField {
   // The shortest move, found direction by direction, that brings the points back to within `margin` of the
   // foliage's convex hull, as far as 162 directions know it. Zero when they are there.
   Double3 way_back(std::span<const Double3> points, double margin) const;
+  // How far the points reach out of that hull, metres; 0 inside.
+  double excess(std::span<const Double3> points) const;
   double width() const {
     return width_;
   }  // of the foliage, the largest over those directions; < 0: there is none

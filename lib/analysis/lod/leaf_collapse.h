@@ -1,12 +1,13 @@
 // leaf_collapse: two leaves become one bigger, again and again, from all leaves to one.
 //
 // After Remolar, Chover, Belmonte, Ribelles, Rebollo, "Geometric simplification of foliage" (Eurographics
-// 2002): leaves are collapsed instead of edges, because a crown has no surface. Beyond it: which leaves are
-// seen decides which are collapsed first (the inside of a dense crown goes long before its outline), a new
-// leaf has the exact moments of all the leaves that it stands for, keeps their area, and must not reach out
-// of the foliage; so area, coverage and outline hold together.
+// 2002): leaves are collapsed instead of edges, because a crown has no surface. Beyond it: pictures from all
+// round decide. What no one sees goes first and takes the area of what goes with it to where no one sees it;
+// what is left of the picture stays as it was. Where leaves that are seen must go, the one is taken for two
+// that covers most of what they covered and least of what was open.
 #pragma once
 
+#include "lib/analysis/measure/alpha_raster.h"
 #include "lib/formats/spectrum.h"
 #include "lib/formats/tree.h"
 
@@ -15,20 +16,24 @@
 namespace copse {
 
 struct LeafCollapseOptions {
-  int cells = 0;          // of the crown's grid along its longest side; 0: as many as the leaves call for
-  double largest = 0.36;  // of a leaf's area, as a share of the crown's cross-section: what fits inside
-  double turning = 1.5;   // how much turning a leaf counts beside moving it
-  double least_seen = 0.0005;  // what no one sees counts as if this share of it were seen
-  double emptiness = 2;        // how much reaching into empty space counts beside moving
-  int window = 8;              // neighbours looked at on each side
+  int cells = 0;           // of the crown's grid along its longest side; 0: as many as the leaves call for
+  double largest = 0.36;   // of a leaf's area, as a share of the crown's cross-section: what fits inside
+  double emptiness = 2;    // how much reaching into empty space counts beside moving
+  int window = 8;          // neighbours looked at on each side
+  double leaf_pixels = 5;  // that a leaf of mean size covers in each view
+  double round = 0.12;     // of the leaves: how many pairs at most are merged between two drawings
+  double other = 0.04;     // what a pixel counts that shows another leaf, beside one that is lost or gained
 };
 
 // The spectrum of the tree's leaves; without elements when it has none. An opaque leaf becomes a triangle,
 // triangle by triangle; one whose texture has alpha a card of two triangles with the texture of one of the
-// leaves that it stands for (or a triangle, where the leaves are triangles). The group of a twig is collapsed
-// to one leaf before that is merged with another group's; what stands for several groups hangs on the lowest
-// radius that bears them all. A step's error: the largest displacement of a leaf so far, root mean square,
-// metres. Steps come in the order of the visible area that they displace. Deterministic. O(n log n).
-Spectrum collapse_spectrum(const Tree& tree, const LeafCollapseOptions& options = {});
+// leaves that it stands for (or a triangle, where the leaves are triangles). `looks`: the masks of the
+// materials' textures; without them leaves with alpha are taken as opaque. What stands for leaves of several
+// twigs hangs on the lowest radius that bears them all. The sum of areas stays the same as long as it fits
+// (`largest`). A step's error: the largest displacement of a leaf so far, root mean square, metres. Steps
+// come in the order of what they change in the picture, as far as can be. Deterministic. O(n log n) and 12
+// pictures a round; rounds: log(n) / log(1 / (1 - round)).
+Spectrum collapse_spectrum(const Tree& tree, const Looks& looks = {},
+                           const LeafCollapseOptions& options = {});
 
 }  // namespace copse

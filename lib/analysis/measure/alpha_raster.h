@@ -50,10 +50,11 @@ struct Range {
 };
 
 inline Range centres(double low, double high, int size) {
-  const double first = std::ceil(std::max(low, 0.0) - 0.5),
-               last = std::floor(std::min(high, double(size)) - 0.5);
-  if (!(first <= last)) return {0, -1};
-  return {static_cast<int>(std::max(first, 0.0)), static_cast<int>(std::min(last, size - 1.0))};
+  if (!(low <= high && low <= size && high >= 0)) return {0, -1};
+  // Rounding by casts: ceil and floor are calls. Both values are above -1.
+  const double l = std::max(low, 0.0) - 0.5, h = std::min(high, double(size)) - 0.5;
+  const int below = static_cast<int>(l), above = static_cast<int>(h);
+  return {below + (l > below), above - (h < above)};
 }
 
 // Where a row at height y crosses the triangle: no pixel outside is looked at.

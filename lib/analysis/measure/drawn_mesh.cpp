@@ -70,10 +70,15 @@ AlphaMask mask_of(const Material& material, const TextureImage& image) {
 
 }  // namespace
 
+// Most coordinates need no wrapping, and floor is a call.
+static double inside_tile(double x) {
+  return x >= 0 && x < 1 ? x : wrap(x);
+}
+
 bool AlphaMask::passes(double u, double v) const {
   if (opaque.empty()) return true;
-  const int x = std::min(static_cast<int>(wrap(u) * width), width - 1);
-  const int y = std::min(static_cast<int>(wrap(1 - v) * height), height - 1);
+  const int x = std::min(static_cast<int>(inside_tile(u) * width), width - 1);
+  const int y = std::min(static_cast<int>(inside_tile(1 - v) * height), height - 1);
   return opaque[static_cast<std::size_t>(y) * width + x] != 0;
 }
 

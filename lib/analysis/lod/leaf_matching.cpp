@@ -1,0 +1,194 @@
+#include "lib/analysis/lod/leaf_matching.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace copse {
+namespace {
+
+constexpr double k_turning = 0.125;  // of a leaf's area: turning it by a right angle moves it so far, squared
+constexpr double k_near = 0.005;  // of what a match covers: what one as far apart as the crown is wide costs
+constexpr double k_stranger = 4;  // squared: how much farther leaves of another group are
+constexpr std::uint32_t k_nobody = 0xffffffffu;
+
+// Spreads the low 21 bits over every third bit.
+std::uint64_t spread(std::uint64_t x) {
+  x &= 0x1fffff;
+  x = (x | x << 32) & 0x1f00000000ffff;
+  x = (x | x << 16) & 0x1f0000ff0000ff;
+  x = (x | x << 8) & 0x100f00f00f00f00f;
+  x = (x | x << 4) & 0x10c30c30c30c30c3;
+  return (x | x << 2) & 0x1249249249249249;
+}
+
+class Matching {
+ public:
+  Matching(std::span<const MatchLeaf> leaves, const MatchOptions& options)
+      : leaves_(leaves), options_(options) {
+    for (const MatchLeaf& l : leaves) box_.grow(l.centre);
+    const Double3 e = box_.empty() ? Double3{} : box_.extent();
+    per_width_ = dot(e, e) > 0 ? 1 / dot(e, e) : 0;
+  }
+
+  // What is too large together is matched only when nothing else is left.
+  std::vector<LeafMatch> run() {
+    sort();
+    find_cores();
+    find_hosts();
+    std::vector<LeafMatch> out = take(true);
+    return out.empty() ? take(false) : out;
+  }
+
+ private:
+  std::vector<LeafMatch> take(bool fitting) {
+    std::vector<std::uint32_t> cheapest(leaves_.size());
+    for (std::uint32_t i = 0; i < cheapest.size(); ++i) cheapest[i] = i;
+    std::sort(cheapest.begin(), cheapest.end(), [&](std::uint32_t x, std::uint32_t y) {
+      return price_[x] != price_[y] ? price_[x] < price_[y] : x < y;
+    });
+    gone_.assign(leaves_.size(), 0), guests_.assign(leaves_.size(), 0);
+    area_.clear();
+    for (const MatchLeaf& l : leaves_) area_.push_back(l.area);
+    std::vector<std::uint32_t> match_of(leaves_.size(), k_nobody);
+    std::vector<LeafMatch> out;
+    std::size_t taken = 0;
+    for (const std::uint32_t guest : cheapest) {
+      if (taken == options_.most) break;
+      if (match_of[guest] != k_nobody) continue;
+      std::uint32_t host = wants_core_[guest] != 0 ? core_for(guest) : k_nobody;
+      const bool core = host != k_nobody;
+      if (!core) host = host_[guest];
+      if (host == k_nobody || gone_[host] != 0 || !takes(host, guest, fitting)) continue;
+      if (match_of[host] == k_nobody) {
+        match_of[host] = static_cast<std::uint32_t>(out.size());
+        out.push_back({host, {}, false});
+      }
+      LeafMatch& match = out[match_of[host]];
+      match.core = match.core || core;
+      if (core) options_.room -= leaves_[guest].area;
+      match.guests.push_back(guest);
+      match_of[guest] = match_of[host], gone_[guest] = 1, ++taken;
+      area_[host] += leaves_[guest].area, ++guests_[host];
+    }
+    return out;
+  }
+
+  // Whether the host may have one guest more.
+  bool takes(std::uint32_t host, std::uint32_t guest, bool fitting) const {
+    if (!fitting) return guests_[host] == 0;
+    const double area = area_[host] + leaves_[guest].area;
+    if (options_.largest > 0 && area > options_.largest) return false;
+    if (guests_[host] < options_.guests) return true;
+    return std::find(cores_.begin(), cores_.end(), host) != cores_.end() &&
+           area < std::max(2 * leaves_[host].area, options_.core * options_.largest);
+  }
+
+  std::uint32_t core_for(std::uint32_t guest) const {
+    if (leaves_[guest].area > options_.room) return k_nobody;
+    for (const std::uint32_t c : cores_)
+      if (takes(c, guest, true)) return c;
+    return k_nobody;
+  }
+
+  // Of the leaves that may still grow those that show least of it; of equals the largest.
+  void find_cores() {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t i = 0; i < leaves_.size(); ++i)
+      if (options_.largest <= 0 || 1.2 * leaves_[i].area < options_.largest) all.push_back(i);
+    const std::size_t n = options_.room > 0 ? std::min({options_.cores, all.size(), leaves_.size() / 16}) : 0;
+    std::partial_sort(all.begin(), all.begin() + n, all.end(), [&](std::uint32_t x, std::uint32_t y) {
+      const double p = harm(leaves_[x]), q = harm(leaves_[y]);
+      if (p != q) return p < q;
+      return leaves_[x].area != leaves_[y].area ? leaves_[x].area > leaves_[y].area : x < y;
+    });
+    cores_.assign(all.begin(), all.begin() + n);
+  }
+
+  // Of growing, for each pixel that is covered more.
+  double harm(const MatchLeaf& host) const {
+    if (!(host.covered > 0)) return options_.gained + options_.other;
+    return (options_.gained * host.sole + options_.other * host.seen) / host.covered;
+  }
+
+  void sort() {
+    const Double3 e = box_.empty() ? Double3{} : box_.extent();
+    const double scale = std::max({e.x, e.y, e.z});
+    const auto cell = [&](double v) {
+      return static_cast<std::uint64_t>(scale > 0 ? std::clamp(v / scale, 0.0, 1.0) * 0x1fffff : 0);
+    };
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+    for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+      const Double3 c = leaves_[i].centre - box_.min;
+      keyed.emplace_back(spread(cell(c.x)) | spread(cell(c.y)) << 1 | spread(cell(c.z)) << 2, i);
+    }
+    std::sort(keyed.begin(), keyed.end());
+    for (const auto& [key, i] : keyed) order_.push_back(i);
+  }
+
+  // `guest` vanishes, `host` has its area beside its own.
+  double absorbed(const MatchLeaf& host, const MatchLeaf& guest) const {
+    return options_.lost * guest.sole + options_.other * guest.seen + harm(host) * guest.covered;
+  }
+
+  // Of anything that two leaves may become.
+  double shared(const MatchLeaf& a, const MatchLeaf& b) const {
+    const double area = a.area + b.area, covered = a.covered + b.covered;
+    const Double3 d = a.centre - b.centre;
+    const double agree = dot(a.normal, b.normal);
+    const double apart = dot(d, d) + k_turning * area * (1 - agree * agree);
+    // Of two leaves that touch and lie in one plane a third is elsewhere when they become one.
+    const double moved = area > 0 ? std::min(0.5 + 0.5 * apart / area, 1.3) : 0;
+    between_ = moved * (0.5 * (options_.lost + options_.gained) * (a.sole + b.sole) +
+                        options_.other * (a.seen + b.seen));
+    const double excess =
+        options_.largest > 0 && area > options_.largest ? (area - options_.largest) / area * covered : 0;
+    return 20 * excess + k_near * covered * dot(d, d) * per_width_ * (a.group == b.group ? 1 : k_stranger);
+  }
+
+  void find_hosts() {
+    const auto n = static_cast<std::uint32_t>(order_.size());
+    host_.assign(n, k_nobody), price_.assign(n, std::numeric_limits<double>::infinity());
+    const auto offer = [&](std::uint32_t guest, std::uint32_t host, double cost) {
+      if (cost < price_[guest]) price_[guest] = cost, host_[guest] = host;
+    };
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = order_[i];
+      const auto end = std::min<std::size_t>(n, std::size_t{i} + options_.window + 1);
+      for (std::size_t j = i + 1; j < end; ++j) {
+        const std::uint32_t b = order_[j];
+        const double both = shared(leaves_[a], leaves_[b]);
+        const double b_goes = absorbed(leaves_[a], leaves_[b]), a_goes = absorbed(leaves_[b], leaves_[a]);
+        offer(b, a, both + std::min(b_goes, between_));
+        offer(a, b, both + std::min(a_goes, between_));
+      }
+    }
+    wants_core_.assign(n, 0);
+    if (cores_.empty()) return;
+    const MatchLeaf& core = leaves_[cores_.back()];
+    for (std::uint32_t guest = 0; guest < n; ++guest) {
+      const double price = absorbed(core, leaves_[guest]);
+      if (price < price_[guest]) price_[guest] = price, wants_core_[guest] = 1;
+    }
+    for (const std::uint32_t c : cores_) host_[c] = k_nobody, wants_core_[c] = 0;
+  }
+
+  std::span<const MatchLeaf> leaves_;
+  MatchOptions options_;
+  DoubleBox box_;
+  double per_width_ = 0;
+  mutable double between_ = 0;
+  std::vector<std::uint32_t> order_;  // along the curve
+  std::vector<std::uint32_t> host_, cores_;
+  std::vector<double> price_, area_;  // area_: of a host with its guests
+  std::vector<std::size_t> guests_;
+  std::vector<std::uint8_t> gone_, wants_core_;
+};
+
+}  // namespace
+
+std::vector<LeafMatch> match_leaves(std::span<const MatchLeaf> leaves, const MatchOptions& options) {
+  return Matching(leaves, options).run();
+}
+
+}  // namespace copse
