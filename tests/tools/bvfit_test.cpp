@@ -79,6 +79,15 @@ TEST_F(Bvfit, ACubeHasTheVolumesThatItMustHave) {
   }
 }
 
+TEST_F(Bvfit, ExactSaysWhatItCouldNotProve) {
+  const Outcome proven = run({cube(), "--quality", "exact"});
+  EXPECT_EQ(proven.err.find("not proven"), std::string::npos) << proven.err;
+  const Outcome o = run({cube(), "--quality", "exact", "--budget", "1e-6", "--volumes", "lozenge"});
+  EXPECT_EQ(o.status, 0);
+  EXPECT_NE(o.err.find("lozenge (minimal) of 'whole'"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("not proven"), std::string::npos) << o.err;
+}
+
 TEST_F(Bvfit, NumbersAreFloat32AndReadTheSameAsDoubles) {
   const json j = fitted({cube()});
   std::size_t seen = 0;

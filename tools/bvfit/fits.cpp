@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -133,6 +135,35 @@ std::size_t choose_volume(const SetFit& fit, const Choosing& choosing) {
   std::vector<Candidate> candidates;
   for (const FittedVolume& v : fit.volumes) candidates.push_back(candidate_of(v));
   return choose(candidates, choosing.criterion, choosing.costs, choosing.expected, fit.size);
+}
+
+std::string unproven_text(std::span<const SetFit> fits) {
+  constexpr double k_rounding = 1e-4;  // of the gap: what is stored is rounded outward
+  constexpr double k_flat = 1e-6;      // of the cube of the size, as in choosing
+  std::size_t searched = 0, unproven = 0;
+  double worst = 0;
+  std::string of;
+  for (const SetFit& fit : fits) {
+    for (const FittedVolume& v : fit.volumes) {
+      const double wanted = exact_gap(v.method.kind), volume = v.measures.volume;
+      if (!v.method.least || !std::isfinite(wanted) || volume <= k_flat * fit.size * fit.size * fit.size)
+        continue;
+      ++searched;
+      const double gap =
+          v.lower_bound > 0 ? volume / v.lower_bound - 1 : std::numeric_limits<double>::infinity();
+      if (gap <= wanted + k_rounding) continue;
+      ++unproven;
+      if (gap / wanted <= worst) continue;
+      worst = gap / wanted;
+      of = fmt::format("{} ({}) of '{}', {:.3g} % over its bound instead of {:.3g} %", name_of(v.method.kind),
+                       v.method.name, fit.name, 100 * gap, 100 * wanted);
+    }
+  }
+  if (unproven == 0) return "";
+  return fmt::format(
+      "{} of {} searched volumes are not proven as near to the least as --quality exact promises; the "
+      "worst is {}",
+      unproven, searched, of);
 }
 
 Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods, const Options& options,

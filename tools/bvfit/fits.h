@@ -46,6 +46,10 @@ Result<std::vector<SetFit>> fit_sets(std::span<const PartSet> sets, const std::v
 Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods, const Options& options,
                        const Choosing& choosing);
 
+// With --quality exact: what has not been proven to its gap, in a sentence; empty when all has been. What is
+// flat has no gap.
+std::string unproven_text(std::span<const SetFit> fits);
+
 // The index of the volume to test with.
 std::size_t choose_volume(const SetFit& fit, const Choosing& choosing);
 

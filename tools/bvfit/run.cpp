@@ -194,6 +194,9 @@ Result<void> run(const Options& options, Context& context) {
   const auto more = extras(work, options, context);
   if (!more) return std::unexpected(more.error());
   if (auto ok = named(hierarchy_stage(work, options, context)); !ok) return ok;
+  if (options.quality == FitQuality::exact) {
+    if (const std::string text = unproven_text(work.sets); !text.empty()) context.warn(text);
+  }
   report_fits(work.sets, context.report());
   if (auto ok = write_output(work, options, context); !ok) return ok;
   if (auto ok = draw_stage(work, options, context); !ok) return ok;

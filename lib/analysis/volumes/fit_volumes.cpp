@@ -46,6 +46,9 @@ namespace {
 // What FitQuality::exact proves.
 constexpr double k_box_gap = 0.01, k_capsule_gap = 0.02, k_lozenge_gap = 0.1, k_cylinder_gap = 0.01;
 
+// The most work for one proof: about a second. The reference models need a tenth of it.
+constexpr std::size_t k_most_separations = 6000, k_most_cells = 100'000;
+
 using Prepared = VolumeFitter::Prepared;
 using Fit = BoundedFit<Volume<double>>;  // in cloud coordinates
 
@@ -79,7 +82,12 @@ Options limits(const FitOptions& how, double gap) {
   Options options;
   const bool prove = how.quality == FitQuality::exact || how.seconds > 0;
   options.gap = prove ? gap : std::numeric_limits<double>::infinity();
-  if (how.seconds > 0) options.seconds = how.seconds;
+  if (how.seconds > 0) {
+    options.seconds = how.seconds;
+  } else {  // a tree has thousands of parts: what so much work does not prove is told (exact_gap)
+    if constexpr (requires { options.max_separations; }) options.max_separations = k_most_separations;
+    if constexpr (requires { options.max_cells; }) options.max_cells = k_most_cells;
+  }
   return options;
 }
 
@@ -175,6 +183,25 @@ std::span<const FitMethod> fit_methods() {
     return out;
   }();
   return k_methods;
+}
+
+double exact_gap(VolumeKind kind) {
+  switch (kind) {
+    case VolumeKind::obb:
+      return k_box_gap;
+    case VolumeKind::capsule:
+      return k_capsule_gap;
+    case VolumeKind::cylinder:
+      return k_cylinder_gap;
+    case VolumeKind::lozenge:
+      return k_lozenge_gap;
+    case VolumeKind::aabb:
+    case VolumeKind::sphere:
+    case VolumeKind::ellipsoid:
+    case VolumeKind::kdop:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 std::optional<FitMethod> kdop_method(std::string_view k) {

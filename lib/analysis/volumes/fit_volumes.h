@@ -41,6 +41,10 @@ std::span<const FitMethod> fit_methods();
 inline constexpr int k_most_planes = 512;
 std::optional<FitMethod> kdop_method(std::string_view k);
 
+// What FitQuality::exact proves of the searches: the volume is at most (1 + gap) times the least. Infinite
+// for types whose least volume is known as it is (and then proven to rounding).
+double exact_gap(VolumeKind kind);
+
 struct FitOptions {
   FitQuality quality = FitQuality::balanced;
   // For one search, which then goes on to a proof as far as the time allows; 0: the limits of the searches
