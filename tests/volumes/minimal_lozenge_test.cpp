@@ -63,7 +63,7 @@ TEST(MinimalLozenge, OfThinBladesIsThin) {
 
 TEST(MinimalLozenge, OfReferenceModelsIsTheBestKnownAndProvenTo2Percent) {
   if (reference_folder().empty()) GTEST_SKIP() << "the meshes are in Debian's libcgal-demo, not installed";
-  for (const ReferenceModel& model : k_reference_models) {
+  for (const ReferenceModel& model : reference_models()) {
     const std::vector<Double3> points = reference_points(model.name);
     if (points.size() > 3000) continue;  // the quick ones
     const auto cloud = make_point_cloud(points);

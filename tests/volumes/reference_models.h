@@ -4,7 +4,6 @@
 
 #include "lib/formats/vec.h"
 
-#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -16,34 +15,28 @@
 namespace copse {
 
 struct ReferenceModel {
-  const char* name;
-  double capsule, lozenge;  // best known
+  std::string name;                                      // "elephant"
+  double box = 0, sphere = 0, capsule = 0, lozenge = 0;  // best known
 };
 
-inline constexpr std::array k_reference_models{
-    ReferenceModel{"ChineseDragon-10kv", 890317.5, 746645.5},
-    ReferenceModel{"anchor_dense", 0.6450281, 0.6033466},
-    ReferenceModel{"armadillo", 2131055, 1924021},
-    ReferenceModel{"blade", 10645.34, 828.8873},
-    ReferenceModel{"bones", 146.6888, 126.0664},
-    ReferenceModel{"bunny00", 0.7041247, 0.6133681},
-    ReferenceModel{"camel", 0.6193833, 0.2770674},
-    ReferenceModel{"couplingdown", 0.6081212, 0.4648457},
-    ReferenceModel{"cow", 0.3095803, 0.1834665},
-    ReferenceModel{"cylinder_locally_refined", 0.4787874, 0.3367959},
-    ReferenceModel{"dino", 29.89834, 24.5434},
-    ReferenceModel{"elephant", 0.4276596, 0.3663161},
-    ReferenceModel{"fandisk", 0.6457107, 0.5532006},
-    ReferenceModel{"femur", 0.1263533, 0.08967318},
-    ReferenceModel{"homer", 0.236458, 0.1861893},
-    ReferenceModel{"knot1", 0.6035049, 0.4083951},
-    ReferenceModel{"lion-head", 0.6136696, 0.5033078},
-    ReferenceModel{"mech-holes-shark", 1.350869, 1.27939},
-    ReferenceModel{"mushroom", 1.010438, 0.589801},
-    ReferenceModel{"refined_elephant", 0.4223162, 0.3617763},
-    ReferenceModel{"rotor_small", 0.1444737, 0.1197906},
-    ReferenceModel{"triceratops", 920.6638, 816.9274},
-    ReferenceModel{"turbine", 0.5245002, 0.2554698}};
+// Those of bench/volumes_best.txt that are OFF meshes.
+inline const std::vector<ReferenceModel>& reference_models() {
+  static const std::vector<ReferenceModel> k_models = [] {
+    const std::string folder = "meshes/", end = ".off";
+    std::vector<ReferenceModel> models;
+    std::ifstream list(COPSE_SOURCE_DIR "/bench/volumes_best.txt");
+    for (std::string line; std::getline(list, line);) {
+      std::istringstream row(line);
+      ReferenceModel m;
+      if (!(row >> m.name >> m.box >> m.sphere >> m.capsule >> m.lozenge)) continue;
+      if (!m.name.starts_with(folder) || !m.name.ends_with(end)) continue;
+      m.name = m.name.substr(folder.size(), m.name.size() - folder.size() - end.size());
+      models.push_back(m);
+    }
+    return models;
+  }();
+  return k_models;
+}
 
 // Where the meshes lie, unpacked once a process into a folder that is removed at its end; empty without the
 // package.
