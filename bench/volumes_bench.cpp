@@ -125,7 +125,7 @@ class Results {
       if (r > worst) worst = r, worst_model = m.model;
     }
     const std::string quality = counted == 0
-                                    ? "| |"
+                                    ? "|"
                                     : fmt::format("{:.6f} | {:.6f} {}", std::exp(logs / double(counted)),
                                                   worst, worst > 1.0000005 ? worst_model : "");
     fmt::print("| {} | {} | {} | {:.3f} | {:.1f} | {} |\n", way.name, times.size(), quality, median(times),
