@@ -49,6 +49,30 @@ TEST(Instancing, ANodeGetsItsInstancesAndTheOthersStay) {
   EXPECT_EQ(glb.json["extensionsRequired"], nlohmann::json::array({"EXT_mesh_gpu_instancing"}));
 }
 
+TEST(Instancing, AsNodesEachInstanceIsAChildThatSharesTheMesh) {
+  const NodeInstances oaks{"oak", {{1, 2, 3}, {4, 5, 6}}, {{0, 0, 0, 1}, {0, 1, 0, 0}}, {1, 2}};
+  const auto bytes = with_instances(little_glb(), std::vector{oaks}, {}, Instancing::nodes);
+  ASSERT_TRUE(bytes) << bytes.error().what;
+  const GlbFile glb = take_apart(*bytes);
+  EXPECT_FALSE(glb.json.contains("extensionsRequired"));
+  const auto& nodes = glb.json["nodes"];
+  std::size_t parents = 0;
+  for (const auto& node : nodes) {
+    if (node["name"] != "oak") continue;
+    ++parents;
+    EXPECT_FALSE(node.contains("mesh"));
+    ASSERT_EQ(node["children"].size(), 2u);
+    const auto& second = nodes[node["children"][1].get<std::size_t>()];
+    EXPECT_EQ(second["mesh"], nodes[node["children"][0].get<std::size_t>()]["mesh"]);
+    EXPECT_EQ(second["translation"], (std::vector<float>{4, 5, 6}));
+    EXPECT_EQ(second["rotation"], (std::vector<float>{0, 1, 0, 0}));
+    EXPECT_EQ(second["scale"], (std::vector<float>{2, 2, 2}));
+  }
+  EXPECT_EQ(parents, 1u);
+  NodeInstances many{"oak", std::vector<Float3>(k_most_nodes + 1), {}, {}};
+  EXPECT_FALSE(with_instances(little_glb(), std::vector{many}, {}, Instancing::nodes));
+}
+
 TEST(Instancing, AnOriginIsTheTranslationOfARoot) {
   const auto bytes = with_instances(little_glb(), {}, {1e7, 5, -3});
   ASSERT_TRUE(bytes);

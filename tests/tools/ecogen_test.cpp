@@ -471,6 +471,7 @@ TEST_F(Ecogen, ExportsObjOfSmallForests) {
 // The judge is the Khronos validator, where node and the npm package `gltf-validator` are.
 TEST_F(Ecogen, ExportsAGlbThatTheKhronosValidatorAccepts) {
   ASSERT_EQ(run({"--export", file("f.glb")}).status, 0);
+  ASSERT_EQ(run({"--export", file("n.glb"), "--glb-nodes"}).status, 0);
   write_text(file("check.js"), R"(const v = require('gltf-validator'), fs = require('fs');
 v.validateBytes(new Uint8Array(fs.readFileSync(process.argv[2]))).then(r => {
   // The images of these trees are names alone: that they cannot be read is no fault of the GLB.
@@ -479,12 +480,14 @@ v.validateBytes(new Uint8Array(fs.readFileSync(process.argv[2]))).then(r => {
   const Outcome root = run_process({"/bin/sh", "-c", "npm root -g 2>/dev/null"});
   const std::string modules = root.out.substr(0, root.out.find('\n'));
   const char* own = std::getenv("NODE_PATH");
-  const Outcome o = run_process({"/bin/sh", "-c", "node '" + file("check.js") + "' '" + file("f.glb") + "'"},
-                                {"NODE_PATH=" + (own ? std::string(own) + ":" : "") + modules});
-  if (o.err.find("Cannot find module") != std::string::npos || o.status == 127)
-    GTEST_SKIP() << "node or the npm package gltf-validator is not installed";
-  EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_EQ(o.out.substr(0, 2), "0 ") << o.out;
+  for (const char* name : {"f.glb", "n.glb"}) {
+    const Outcome o = run_process({"/bin/sh", "-c", "node '" + file("check.js") + "' '" + file(name) + "'"},
+                                  {"NODE_PATH=" + (own ? std::string(own) + ":" : "") + modules});
+    if (o.err.find("Cannot find module") != std::string::npos || o.status == 127)
+      GTEST_SKIP() << "node or the npm package gltf-validator is not installed";
+    EXPECT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(o.out.substr(0, 2), "0 ") << o.out;
+  }
 }
 
 TEST_F(Ecogen, WhatNoFrameShowsIsLeftOut) {

@@ -165,8 +165,8 @@ void add_terrain(const Ecosystem& eco, Merger& merger) {
     merger.add(terrain_mesh(eco), "terrain", k_same, k_same, [](const Part& p) { return p.material; });
 }
 
-Result<std::vector<ExportedFile>> glb_of(const Ecosystem& eco, const fs::path& trees,
-                                         const std::string& name) {
+Result<std::vector<ExportedFile>> glb_of(const Ecosystem& eco, const fs::path& trees, const std::string& name,
+                                         Instancing form) {
   Merger merger(eco);
   const auto all = read_meshes(eco, trees, merger);
   if (!all) return std::unexpected(all.error());
@@ -187,8 +187,8 @@ Result<std::vector<ExportedFile>> glb_of(const Ecosystem& eco, const fs::path& t
   }
   auto files = export_mesh(merger.take(), ExportFormat::glb, name);
   if (!files) return files;
-  auto bytes = with_instances(files->front().bytes, nodes, eco.origin);
-  if (!bytes) return std::unexpected(bytes.error());
+  auto bytes = with_instances(files->front().bytes, nodes, eco.origin, form);
+  if (!bytes) return refuse(name, bytes.error().what, bytes.error().remedy);
   files->front().bytes = std::move(*bytes);
   return files;
 }
@@ -239,7 +239,7 @@ Result<void> check_export(const fs::path& file) {
 }
 
 Result<void> export_ecosystem(const Ecosystem& eco, const fs::path& trees, const fs::path& file,
-                              Context& context) {
+                              Instancing form, Context& context) {
   Stage stage = context.stage(fmt::format("export {}", file.extension().string()));
   stage.items(eco.instance_count(), "instances");
   const std::string e = file.extension().string(), name = file.filename().string();
@@ -249,7 +249,7 @@ Result<void> export_ecosystem(const Ecosystem& eco, const fs::path& trees, const
     if (!png) return std::unexpected(png.error());
     return context.write(file, {reinterpret_cast<const char*>(png->data()), png->size()});
   }
-  const auto files = e == ".glb" ? glb_of(eco, trees, name) : obj_of(eco, trees, name);
+  const auto files = e == ".glb" ? glb_of(eco, trees, name, form) : obj_of(eco, trees, name);
   if (!files) return std::unexpected(files.error());
   return write_all(*files, file.parent_path(), context);
 }

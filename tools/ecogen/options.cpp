@@ -43,6 +43,10 @@ void add_options(CLI::App& app, Options& o) {
                    "instances), NAME.obj (small ones); may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
+  other->add_flag(
+      "--glb-nodes", o.glb_nodes,
+      "of a .glb: a node an instance, for programs that do not know the extension (Blender before 3.6); "
+      "at most 200000");
   CLI::Option_group* frames = app.add_option_group("Leaving out what no frame shows");
   frames->add_option("--camera-path", o.camera_path, "keys of a camera's path, as treeplay --path takes them")
       ->type_name("FILE.json");

@@ -13,7 +13,7 @@ struct Options {
   std::filesystem::path input, output;
   bool print_template = false, print_schema = false;
   std::vector<std::string> edits;
-  bool pack = false, compress = false;
+  bool pack = false, compress = false, glb_nodes = false;
   std::filesystem::path instances, camera_path;
   double view_range = 0;  // m; 0: no limit
   std::vector<std::filesystem::path> exports;

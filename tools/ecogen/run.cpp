@@ -114,7 +114,9 @@ Result<void> make(const Options& options, Context& context) {
   if (!page) return std::unexpected(page.error());
   built->eco.provenance = provenance(options, *scene, page->hash);
   for (const fs::path& file : options.exports)
-    if (auto done = export_ecosystem(built->eco, options.output.parent_path(), file, context); !done)
+    if (auto done = export_ecosystem(built->eco, options.output.parent_path(), file,
+                                     options.glb_nodes ? Instancing::nodes : Instancing::extension, context);
+        !done)
       return done;
   Stage stage = context.stage("write");
   const auto bytes = encode_ecosystem(built->eco, options.compress ? Encoding::zstd : Encoding::raw);

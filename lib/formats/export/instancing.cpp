@@ -53,7 +53,7 @@ std::string put_together(const Glb& glb) {
 
 class Instancer {
  public:
-  explicit Instancer(Glb& glb) : glb_(glb) {}
+  Instancer(Glb& glb, Instancing form) : glb_(glb), form_(form) {}
 
   bool add(const NodeInstances& n) {
     Json& nodes = glb_.json["nodes"];
@@ -61,6 +61,10 @@ class Instancer {
       return node.value("name", "") == n.node && node.contains("mesh");
     });
     if (at == nodes.end()) return false;
+    if (form_ == Instancing::nodes) {
+      add_children(static_cast<std::size_t>(at - nodes.begin()), n);
+      return true;
+    }
     std::vector<Float3> scales;
     for (const float s : n.scales) scales.push_back({s, s, s});
     Json attributes = {
@@ -72,6 +76,24 @@ class Instancer {
   }
 
  private:
+  // The node's mesh goes to children of it, one an instance.
+  void add_children(std::size_t index, const NodeInstances& n) {
+    Json& nodes = glb_.json["nodes"];
+    const Json mesh = nodes[index]["mesh"];
+    nodes[index].erase("mesh");
+    Json children = Json::array();
+    for (std::size_t i = 0; i < n.translations.size(); ++i) {
+      const Float3& t = n.translations[i];
+      children.push_back(nodes.size());
+      nodes.push_back({{"name", fmt::format("{} {}", n.node, i + 1)},
+                       {"mesh", mesh},
+                       {"translation", {t.x, t.y, t.z}},
+                       {"rotation", n.rotations[i]},
+                       {"scale", {n.scales[i], n.scales[i], n.scales[i]}}});
+    }
+    nodes[index]["children"] = std::move(children);
+  }
+
   std::size_t accessor(const void* data, std::size_t count, const char* type, std::size_t stride) {
     glb_.binary.resize(align_up(glb_.binary.size(), 4));
     const std::size_t offset = glb_.binary.size(), size = count * stride;
@@ -85,6 +107,7 @@ class Instancer {
   }
 
   Glb& glb_;
+  Instancing form_;
 };
 
 void move_everything(Json& json, const Double3& origin) {
@@ -98,9 +121,14 @@ void move_everything(Json& json, const Double3& origin) {
 }  // namespace
 
 Result<std::string> with_instances(std::string_view bytes, std::span<const NodeInstances> nodes,
-                                   const Double3& origin) {
+                                   const Double3& origin, Instancing form) {
   Glb glb = take_apart(bytes);
-  Instancer instancer(glb);
+  Instancer instancer(glb, form);
+  std::size_t count = 0;
+  for (const NodeInstances& n : nodes) count += n.translations.size();
+  if (form == Instancing::nodes && count > k_most_nodes)
+    return refuse("", fmt::format("{} instances as nodes; {} are the limit", count, k_most_nodes),
+                  "export them by the extension, or fewer");
   bool any = false;
   for (const NodeInstances& n : nodes) {
     if (n.translations.empty()) continue;
@@ -108,7 +136,7 @@ Result<std::string> with_instances(std::string_view bytes, std::span<const NodeI
       return refuse("", fmt::format("no node of the GLB is called '{}'", n.node), "report this");
     any = true;
   }
-  if (any) {
+  if (any && form == Instancing::extension) {
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) glb.json[list].push_back(k_extension);
     glb.binary.resize(align_up(glb.binary.size(), 4));
     glb.json["buffers"][0]["byteLength"] = glb.binary.size();

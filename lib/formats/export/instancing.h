@@ -1,4 +1,4 @@
-// EXT_mesh_gpu_instancing: a GLB whose nodes are drawn many times.
+// A GLB whose nodes are drawn many times: by EXT_mesh_gpu_instancing, or as so many nodes of one mesh.
 #pragma once
 
 #include "lib/formats/result.h"
@@ -19,10 +19,16 @@ struct NodeInstances {
   std::vector<float> scales;
 };
 
+enum class Instancing {
+  extension,  // attributes of the node: compact, and required of whoever reads it
+  nodes,      // a child of the node each: for programs that do not know the extension, at most k_most_nodes
+};
+inline constexpr std::size_t k_most_nodes = 200'000;
+
 // `glb` (as export_mesh writes it) with instances for the named nodes, and everything moved by `origin`,
 // exactly: in the translation of a root node. Nodes that are not named stay as they are. Refused: a name that
-// no node has, more than 4 GiB.
+// no node has, more than 4 GiB, more than k_most_nodes as nodes.
 Result<std::string> with_instances(std::string_view glb, std::span<const NodeInstances> nodes,
-                                   const Double3& origin);
+                                   const Double3& origin, Instancing form = Instancing::extension);
 
 }  // namespace copse
