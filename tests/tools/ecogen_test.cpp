@@ -503,5 +503,25 @@ TEST_F(Ecogen, WhatNoFrameShowsIsLeftOut) {
       EXPECT_LT(instance_of(eco, b, i).position.x, 25);
 }
 
+TEST_F(Ecogen, WhatIsBeyondItsViewRangeInEveryFrameIsLeftOut) {
+  write_text(
+      file("path.json"),
+      R"({"schema":"copse.path/1","keys":[{"time":0,"eye":[30,1,20],"target":[0,1,20]},{"time":1,"eye":[31,1,20],"target":[60,1,21]}]})");
+  page_["types"][0]["scale"] = page_["types"][1]["scale"] = 1e-4;
+  page_["types"][0]["view_range"] = 12;
+  ASSERT_EQ(run({"--camera-path", file("path.json"), "--report", file("r.json")}).status, 0);
+  const Ecosystem eco = load();
+  double farthest[2] = {};
+  for (const InstanceBlock& b : eco.blocks)
+    for (std::size_t i = b.first; i < b.first + b.count; ++i) {
+      const Double3 p = instance_of(eco, b, i).position;
+      double& most = farthest[eco.types[b.type].name == "b"];
+      most = std::max(most, std::hypot(p.x - 30.5, p.z - 20));
+    }
+  EXPECT_LT(farthest[0], 14);  // 12, a part of the ground and what the camera moves
+  EXPECT_GT(farthest[1], 20);  // no limit
+  EXPECT_NE(read_text(file("r.json")).find("no frame of the camera's path shows them"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace copse
