@@ -58,7 +58,7 @@ LevelPictures::LevelPictures(const LodSpectra& spectra, const Looks& looks)
   centre_ = box.centre();
   radius_ = std::max(0.5 * length(box.extent()), 1e-300);
   for (std::size_t i = 0; i < k_sizes.size(); ++i) {
-    for (const OrthographicView& view : views(i)) source_[i].push_back(draw_picture(source, looks_, view, 1));
+    for (const OrthographicView& view : views(i)) source_[i].push_back(draw_picture(source, looks_, view, 2));
   }
 }
 
@@ -76,7 +76,7 @@ double LevelPictures::error(const LodLevel& level) const {
   const std::vector<OrthographicView> sides = views(size);
   double sum = 0;
   for (std::size_t i = 0; i < source_[size].size(); ++i) {
-    const double e = picture_error(draw_picture(mesh, looks_, sides[i], 1), source_[size][i]).rmse;
+    const double e = picture_error(draw_picture(mesh, looks_, sides[i], 2), source_[size][i]).rmse;
     sum += e * e;
   }
   return sides.empty() ? 0 : std::sqrt(sum / static_cast<double>(sides.size()));

@@ -21,7 +21,7 @@ class Coupler {
     double least = std::numeric_limits<double>::infinity();
     if (!error_) {
       const LodLevel level = even(from, target);
-      return floats_ && floats_(level) > 0 ? leaves_alone(from, target) : level;
+      return floats_ && floats_(level) > 0 ? nearly_even(from, target, level) : level;
     }
     std::vector<LodLevel> tried;
     const std::uint64_t trunk = count(spectra_.trunk, from.trunk_steps);
@@ -43,6 +43,18 @@ class Coupler {
   }
 
  private:
+  // The trunk keeps more than its share, as little more as holds the leaves.
+  LodLevel nearly_even(const LodLevel& from, std::uint64_t target, const LodLevel& even) const {
+    const std::uint64_t least = count(spectra_.trunk, even.trunk_steps);
+    const std::uint64_t most = count(spectra_.trunk, from.trunk_steps);
+    constexpr std::uint64_t k_tries = 8;
+    for (std::uint64_t i = 1; i < k_tries; ++i) {
+      const LodLevel level = divide(from, target, least + (most - least) * i / k_tries);
+      if (level.triangles <= target && floats_(level) == 0) return level;
+    }
+    return leaves_alone(from, target);
+  }
+
   LodLevel leaves_alone(const LodLevel& from, std::uint64_t target) const {
     const std::uint64_t trunk = count(spectra_.trunk, from.trunk_steps);
     const LodLevel level =

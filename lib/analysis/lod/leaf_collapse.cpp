@@ -313,7 +313,7 @@ class Collapse {
     const Node& like = out.successor.like == k_none ? *look : nodes_[alive_[out.successor.like]];
     if (!good && sum.area > 6 * mean_area_) search(out.successor, like, area, exchange);
     out.fits = out.successor.drawn.area() > 0.99 * area;
-    out.successor.displacement = displaced(sum, out.successor.drawn);
+    out.successor.displacement = displaced(out.members, sum, out.successor.drawn);
     out.price = out.successor.cost / std::max(triangles - double(out.successor.drawn.faces.size()), 0.5);
     return out;
   }
@@ -443,9 +443,17 @@ class Collapse {
     return out;
   }
 
-  // How far the leaves of the patch are from what is drawn for them, root mean square: how much farther from
-  // its centre than it is large.
-  double displaced(const Patch& patch, const Drawn& drawn) const {
+  // How far the leaves are from what is drawn for them, root mean square: how much farther from its centre
+  // than it is large. What gives its area to a core leaves a hole of its own size, where no one sees it.
+  double displaced(std::span<const std::uint32_t> members, const Patch& patch, const Drawn& drawn) const {
+    double hole = 0;
+    bool core = members.size() > weights_.guests + 1;
+    for (const std::uint32_t m : members) {
+      const Node& n = nodes_[alive_[m]];
+      core = core || n.core;
+      if (!n.core) hole = std::max(hole, n.patch.covariance().trace());
+    }
+    if (core) return std::sqrt(hole);
     Patch own;
     for (const ViewedTriangle& t : drawn.viewed) {
       std::array<Double3, 3> corners = t.corners;
