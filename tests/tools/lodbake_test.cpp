@@ -120,6 +120,26 @@ TEST_F(Lodbake, AnImpostorIsBakedMeasuredListedExportedAndLeftOutAgain) {
             1);
 }
 
+TEST_F(Lodbake, NearMediumAndFarAreWhereTheThreeModelsChange) {
+  ASSERT_EQ(bake({"--near", "100", "--medium", "500", "--far", "1500"}).status, 0);
+  const auto levels = nlohmann::json::parse(run_process({"treedump", out_, "--json"}).out)["levels"];
+  EXPECT_EQ(levels["near"], 100);
+  ASSERT_EQ(levels["discrete"].size(), 2u);
+  EXPECT_EQ(levels["discrete"][0]["distance"], 500);
+  EXPECT_EQ(levels["discrete"][1]["distance"], 1500);
+  EXPECT_LE(levels["discrete"][0]["share"], 0.5);
+  EXPECT_LE(levels["discrete"][1]["share"], 0.25);
+}
+
+TEST_F(Lodbake, ATreeBelowTheThresholdGetsNoLevels) {
+  ASSERT_EQ(bake({"--threshold", "235"}).status, 0);
+  EXPECT_TRUE(TreeFile::open(out_)->has("LSLD"));
+  const Outcome o = bake({"--threshold", "236", "--report", folder_.file("r.json")});
+  EXPECT_EQ(o.status, 0);
+  EXPECT_NE(o.err.find("without levels"), std::string::npos) << o.err;
+  EXPECT_EQ(read_text(out_), read_text(tree_));
+}
+
 TEST_F(Lodbake, RingsGoInTheOrderThatIsAskedFor) {
   for (const char* order : {"silhouette", "angle", "projected-angle", "diameter"}) {
     ASSERT_EQ(bake({"--removal", order, "--continuous"}).status, 0) << order;

@@ -46,8 +46,11 @@ void choose_levels(const Options& options, double height, LodSpectra& spectra) {
                                                : spectra.discrete.back().distance;
   spectra.near = static_cast<float>(options.near.value_or(distance_of(1, height)));
   spectra.far = static_cast<float>(std::max<double>(options.far.value_or(last), spectra.near));
-  if (options.near && !spectra.discrete.empty()) spectra.discrete.front().distance = spectra.near;
-  if (options.medium && spectra.discrete.size() > 1)
+  // The near model of the three that 003 has is full detail: then --medium is where it ends.
+  const bool three_models = spectra.discrete.size() == 2 && options.near && options.medium && options.far;
+  const auto& first = three_models ? options.medium : options.near;
+  if (first && !spectra.discrete.empty()) spectra.discrete.front().distance = static_cast<float>(*first);
+  if (options.medium && spectra.discrete.size() > 1 && !three_models)
     spectra.discrete[1].distance = static_cast<float>(*options.medium);
   if (options.far && !spectra.discrete.empty()) spectra.discrete.back().distance = spectra.far;
   for (LodLevel& knot : spectra.schedule)

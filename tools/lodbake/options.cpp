@@ -68,6 +68,10 @@ void add_options(CLI::App& app, Options& options) {
   levels->add_option("--min-triangles", options.min_triangles, "no level has fewer")
       ->type_name("N")
       ->capture_default_str();
+  levels
+      ->add_option("--threshold", options.threshold, "a tree with no more triangles than this gets no levels")
+      ->type_name("N")
+      ->capture_default_str();
   levels->add_option("--near", options.near, "full detail up to this distance in metres")
       ->type_name("D")
       ->check(number_from(0));

@@ -25,6 +25,7 @@ struct Options {
   std::optional<double> near, medium, far;
   bool continuous = false;
   std::uint64_t min_triangles = 0;
+  std::uint64_t threshold = 0;  // trees with no more triangles get no levels
   double hysteresis = 10;  // percent
   TrunkMethod trunk = TrunkMethod::radii;
   RemovalOrder removal = RemovalOrder::silhouette;

@@ -116,6 +116,19 @@ Result<void> check_errors(const Options& options, const LodSpectra& spectra) {
   return {};
 }
 
+// A tree that is too small for levels loses those that it had.
+Result<void> write_without_levels(const Options& options, const TreeFile& file,
+                                  const std::optional<PackedTree>& packed, Context& context) {
+  ContainerWriter writer(file.container());
+  if (auto done = write_base(options, file, packed, writer, context); !done) return done;
+  for (const char* section : {"LSTR", "LSLV", "LSLD", "FCEL", "FORD", "FVWS", "FVTR", "FVIS", "FPAR"})
+    writer.remove(section);
+  if (auto done = put_impostor(writer, {}); !done) return done;
+  const auto bytes = writer.finish();
+  if (!bytes) return std::unexpected(bytes.error());
+  return context.write(options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+}
+
 Result<void> write(const Options& options, const TreeFile& file, const std::optional<PackedTree>& packed,
                    const BakedSpectra& baked, Context& context) {
   Stage stage = context.stage("write");
@@ -156,6 +169,12 @@ Result<void> run(const Options& options, Context& context) {
   if (!tree) return std::unexpected(tree.error());
   const auto packed = pack_base(options, *file, *tree, context);
   if (!packed) return std::unexpected(packed.error());
+  const std::uint64_t triangles = tree->trunk.triangles.size() + tree->leaves.triangles.size();
+  if (options.threshold > 0 && triangles <= options.threshold) {
+    context.warn(fmt::format("{}: {} triangles are not more than --threshold {}: written without levels",
+                             options.input.string(), triangles, options.threshold));
+    return write_without_levels(options, *file, packed, context);
+  }
   const TreeLooks looks(*tree, options.input, context);
   if (auto right = check_lines_points(options, *file); !right) return right;
   auto baked = make_spectra(*tree, looks.looks(), options, context);
