@@ -150,6 +150,19 @@ TEST_F(TreeplayLevels, LinesAndPointsTakeOverFromTrianglesWithDistance) {
   EXPECT_LT(primitives, 2 * triangles);
 }
 
+TEST_F(TreeplayLevels, FoliageIsDrawnInFullFromNearAndAsASubsetFromFar) {
+  ASSERT_EQ(bake({"--foliage", "prune", "--cells", "4", "--views", "12", "--far", "200"}).status, 0);
+  const auto seen = [&](const char* camera) {
+    return std::stoi(column({"--lod", "foliage", "--camera", camera}, "triangles").at(0));
+  };
+  const int full = std::stoi(column({}, "triangles").at(0));
+  EXPECT_EQ(seen("0,10,1.5,0,10,0"), full) << "from inside the crown";
+  const int middle = seen("0,6,80,0,6,0"), far = seen("0,6,500,0,6,0");
+  EXPECT_LT(middle, full);
+  EXPECT_LT(far, middle);
+  EXPECT_GT(far, full - 60) << "the trunk is drawn in full";
+}
+
 TEST_F(TreeplayLevels, WhatTheFileCannotDoIsSaidInOneLine) {
   const auto says = [&](const std::string& file, const std::vector<std::string>& more, int status,
                         const std::string& text) {
@@ -165,6 +178,7 @@ TEST_F(TreeplayLevels, WhatTheFileCannotDoIsSaidInOneLine) {
   says(levels_, {"--level", "7"}, 1, "numbered 7");
   says(levels_, {"--level", "1", "--ratio", "0.5"}, 2, "excludes");
   says(folder_.file("oak.obj"), {"--lod", "lines-points"}, 1, "treeprep");
+  says(levels_, {"--lod", "foliage"}, 1, "--foliage prune");
   says(levels_, {"--lod", "magic"}, 2, "--lod");
   ASSERT_EQ(bake({}).status, 0);
   says(levels_, {"--lod", "spectrum"}, 1, "--continuous");

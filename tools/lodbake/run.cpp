@@ -173,7 +173,7 @@ Result<void> run(const Options& options, Context& context) {
   if (options.threshold > 0 && triangles <= options.threshold) {
     context.warn(fmt::format("{}: {} triangles are not more than --threshold {}: written without levels",
                              options.input.string(), triangles, options.threshold));
-    return write_without_levels(options, *file, packed, context);
+    return write_without_levels(options, *file, *packed, context);
   }
   const TreeLooks looks(*tree, options.input, context);
   if (auto right = check_lines_points(options, *file); !right) return right;
@@ -184,6 +184,9 @@ Result<void> run(const Options& options, Context& context) {
     Stage stage = context.stage("levels");
     choose_levels(options, tree->header.bounds.extent().y, *spectra);
     report_levels(*tree, *spectra, context.report());
+    // Where only the near border was asked for, the far one is that of the levels.
+    if (baked->cells && options.near && !options.far)
+      baked->cells->parameters.far = std::max(spectra->far, baked->cells->parameters.near);
     stage.items(spectra->discrete.size(), "levels");
   }
   if (options.lines_points) report_projections(*tree, options.views, context);

@@ -1,5 +1,7 @@
 #include "tools/treeplay/lines_points.h"
 
+#include "tools/treeplay/range_owners.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -52,26 +54,6 @@ Tint tint_of(const Float3& linear) {
   return out;
 }
 
-// The range's triangles in the order in which make_geometry has put them: those of its material, ascending.
-template <class Material, class Key>
-std::vector<std::uint32_t> keys_of(std::size_t triangles, std::uint32_t material, Material&& material_at,
-                                   Key&& key_at) {
-  std::vector<std::uint32_t> out;
-  for (std::size_t t = 0; t < triangles; ++t)
-    if (material_at(t) == material) out.push_back(key_at(t));
-  return out;
-}
-
-// Which segment or leaf each of its triangles belongs to.
-template <class First>
-std::vector<std::uint32_t> owners(std::size_t count, std::size_t triangles, First&& first) {
-  std::vector<std::uint32_t> out(triangles, static_cast<std::uint32_t>(count));
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t t = first(i); t < std::min<std::size_t>(first(i + 1), triangles); ++t)
-      out[t] = static_cast<std::uint32_t>(i);
-  return out;
-}
-
 std::uint32_t leaf_material(const Tree& tree, std::size_t leaf) {
   return tree.leaves.materials.empty() ? tree.leaves.material : tree.leaves.materials[leaf];
 }
@@ -98,35 +80,14 @@ LinesPoints::LinesPoints(const Tree& tree, const std::vector<DrawRange>& ranges,
   }
   diameters_ = tree.trunk.diameters.to_vector();
   groups_ = tree.leaves.groups.to_vector();
-  const bool ordered = tree.leaves.order.size() == tree.leaf_count();
-  std::vector<std::uint32_t> place(tree.leaf_count());
-  for (std::uint32_t i = 0; i < tree.leaf_count(); ++i) {
-    const std::uint32_t leaf = ordered ? tree.leaves.order[i] : i;
-    place[leaf] = i;
+  for (const std::uint32_t leaf : leaves_in_order(tree)) {
     leaves_.push_back({tree.leaves.centres.empty() ? Float3{} : tree.leaves.centres[leaf],
                        normal_of(tree, leaf), colour(leaf_material(tree, leaf), DrawPart::leaves)});
   }
-  const auto segment = owners(tree.segment_count(), tree.trunk.triangles.size(),
-                              [&](std::size_t i) { return tree.first_triangle_of_segment(i); });
-  const auto leaf = owners(tree.leaf_count(), tree.leaves.triangles.size(),
-                           [&](std::size_t i) { return tree.first_triangle_of_leaf(i); });
   trunk_colour_ = colour(tree.trunk.material, DrawPart::trunk);
-  for (const DrawRange& range : ranges) {
-    if (range.part == DrawPart::trunk) {
-      if (range.material != k_none) trunk_colour_ = colour(range.material, DrawPart::trunk);
-      keys_.push_back(keys_of(
-          segment.size(), range.material,
-          [&](std::size_t t) {
-            return tree.trunk.materials.empty() ? tree.trunk.material : tree.trunk.materials[t];
-          },
-          [&](std::size_t t) { return segment[t]; }));
-    } else {
-      keys_.push_back(keys_of(
-          leaf.size(), range.material, [&](std::size_t t) { return leaf_material(tree, leaf[t]); },
-          [&](std::size_t t) { return place[leaf[t]]; }));
-      std::sort(keys_.back().begin(), keys_.back().end());
-    }
-  }
+  for (const DrawRange& range : ranges)
+    if (range.part == DrawPart::trunk) trunk_colour_ = colour(range.material, DrawPart::trunk);
+  keys_ = range_owners(tree, ranges);
 }
 
 void LinesPoints::take_light(const SkyLight& sky) {

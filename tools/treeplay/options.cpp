@@ -153,12 +153,15 @@ void add_options(CLI::App& app, Options& options) {
   CLI::Option* lod =
       add_choice<Lod>(*detail, "--lod", options.detail.lod,
                       "by distance: the discrete levels with their hysteresis (auto), everything in between "
-                      "(spectrum), or thin segments as lines and far leaves as points (any tree)",
+                      "(spectrum), thin segments as lines and far leaves as points (any tree), or the crown "
+                      "cell by cell as it is "
+                      "seen (foliage: lodbake --foliage prune)",
                       {{"off", Lod::off},
                        {"lines-points", Lod::lines_points},
+                       {"foliage", Lod::foliage},
                        {"spectrum", Lod::spectrum},
                        {"auto", Lod::automatic}});
-  lod->type_name("off|lines-points|spectrum|auto");
+  lod->type_name("off|lines-points|foliage|spectrum|auto");
   level->excludes(ratio)->excludes(error)->excludes(lod);
   ratio->excludes(error)->excludes(lod);
   error->excludes(lod);

@@ -128,21 +128,28 @@ namespace {
 
 // Trees of an ecosystem go by distance, each by the levels that its file has; --level 0 is full detail.
 Wanted wanted_of(const Options& options, bool window) {
-  if (options.input.extension() == ".eco") return {.levels = !options.detail.level, .lines_points = false};
-  // Lines and points are made of the tree itself.
-  const bool lines_points = options.detail.lod == Lod::lines_points;
-  return {.levels = (window || options.detail.needs_levels()) && !lines_points, .lines_points = lines_points};
+  Wanted wanted;
+  if (options.input.extension() == ".eco") {
+    wanted.levels = !options.detail.level;
+    return wanted;
+  }
+  // Lines, points and pruned crowns are made of the tree itself.
+  wanted.lines_points = options.detail.lod == Lod::lines_points;
+  wanted.foliage = options.detail.lod == Lod::foliage;
+  wanted.levels = (window || options.detail.needs_levels()) && !wanted.lines_points && !wanted.foliage;
+  return wanted;
 }
 
 Result<void> check_detail(const Scene& scene, const Options& options) {
   const bool lines_points = options.detail.lod == Lod::lines_points;
-  if (lines_points && scene.eco) {
+  const bool foliage = options.detail.lod == Lod::foliage;
+  if (scene.eco && (lines_points || foliage)) {
     return fail(Fault::usage, options.input.string(),
-                "is an ecosystem, whose trees are not drawn as lines and points",
-                "leave --lod lines-points out, or name one of its trees");
+                "is an ecosystem, whose trees take levels by distance alone",
+                "leave --lod out, or name one of its trees");
   }
-  if (lines_points && !scene.lines_points) {
-    return refuse(options.input.string(), "is no tree, and has no lines and points",
+  if ((lines_points && !scene.lines_points) || (foliage && !scene.foliage)) {
+    return refuse(options.input.string(), "is no tree, and has no such detail",
                   "make a tree of it with treeprep");
   }
   if (!scene.eco || !options.detail.names_one() || options.detail.level == std::uint64_t{0}) return {};

@@ -213,6 +213,10 @@ FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int 
     plan.triangles = plan.shown.impostor ? 2
                      : scene_.levels     ? scene_.levels->triangles(plan.shown.level)
                                          : scene_.triangles();
+  if (scene_.foliage && shows_surface(look.show)) {
+    scene_.foliage->select(scene_.geometry, eye - scene_.geometry.origin, plan.foliage);
+    plan.triangles = plan.foliage.indices.size() / 3;
+  }
   if (scene_.lines_points && shows_surface(look.show)) {
     const Double3 forward = plan.view.frame.back * -1.0;
     scene_.lines_points->select(scene_.geometry, eye - scene_.geometry.origin, forward,
@@ -302,7 +306,11 @@ Result<void> Renderer::draw(const FramePlan& plan, GLuint framebuffer) {
   if (auto done = fit_tile_buffers(tile_width * s, tile_height * s); !done) return done;
   if (scene_.eco) surfaces_.show(scene_, plan.runs);
   take_level(plan.shown);
-  if (scene_.lines_points) {
+  if (scene_.foliage && !plan.foliage.ranges.empty()) {
+    surfaces_.replace(scene_.foliage->first_leaf_vertex(), plan.foliage.leaves);
+    surfaces_.replace(plan.foliage.indices, plan.foliage.ranges);
+  }
+  if (scene_.lines_points && !plan.primitives.ranges.empty()) {
     surfaces_.replace(plan.primitives.indices, plan.primitives.ranges);
     if (auto done = primitives_.upload(plan.primitives.lines, plan.primitives.points); !done) return done;
   }

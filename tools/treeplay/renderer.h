@@ -41,6 +41,7 @@ struct FramePlan {
   bool tree_visible = true;
   std::vector<CopyRun> runs;      // of an ecosystem: what is seen
   ShownLevel shown;               // of a tree with levels
+  PrunedFoliage::Frame foliage;   // with --lod foliage
   LinesPoints::Frame primitives;  // with --lod lines-points
   double distance = 0;            // of the eye from the middle of what is drawn, metres
   // What was done and what will be drawn, for the statistics.

@@ -124,6 +124,18 @@ Result<void> take_lines_points(Scene& scene, const Tree& tree, const fs::path& p
   return {};
 }
 
+Result<void> take_foliage(Scene& scene, const TreeFile& file, const Tree& tree) {
+  auto cells = read_foliage_cells(file);
+  if (!cells) return std::unexpected(cells.error());
+  const std::string& name = file.container().name();
+  if (cells->cells.empty())
+    return refuse(name, "holds no foliage cells", "bake them with lodbake --foliage prune");
+  if (cells->parameters.leaves != hash_leaves(tree))
+    return refuse(name, "its foliage cells are those of other leaves", "bake them again with lodbake");
+  scene.foliage.emplace(tree, std::move(*cells), scene.geometry);
+  return {};
+}
+
 Result<void> take_tree(Scene& scene, const fs::path& path, const Wanted& wanted, Context& context) {
   auto file = TreeFile::open(path);
   if (!file) return std::unexpected(file.error());
@@ -146,6 +158,9 @@ Result<void> take_tree(Scene& scene, const fs::path& path, const Wanted& wanted,
   }
   scene.skeleton = make_skeleton(*tree);
   scene.materials = tree->materials;
+  if (wanted.foliage) {
+    if (auto taken = take_foliage(scene, *file, *tree); !taken) return taken;
+  }
   if (wanted.lines_points) {
     if (auto taken = take_lines_points(scene, *tree, path); !taken) return taken;
   }

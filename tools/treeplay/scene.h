@@ -10,6 +10,7 @@
 #include "lib/runtime/tree_geometry.h"
 #include "tools/common/tool.h"
 #include "tools/treeplay/lines_points.h"
+#include "tools/treeplay/pruned_foliage.h"
 #include "tools/treeplay/tree_levels.h"
 
 #include <array>
@@ -55,6 +56,7 @@ struct Scene {
   std::vector<std::uint32_t> first_run;      // blocks + 1
   std::shared_ptr<const TreeLevels> levels;  // of a tree that has them, when they were asked for
   std::optional<LinesPoints> lines_points;   // of a tree, when they were asked for
+  std::optional<PrunedFoliage> foliage;      // of a tree with foliage cells, when they were asked for
   std::vector<Float3> full_detail;           // then: the vertices of full detail
   std::optional<Skeleton> skeleton;          // of a tree that has a hierarchy, lines or leaf groups
   std::vector<Material> materials;
@@ -82,7 +84,7 @@ std::optional<Image> read_texture(const Texture& texture, std::size_t index,
 // open.
 // What of a tree is loaded beside its surface; a mesh or an ecosystem has neither.
 struct Wanted {
-  bool levels = false, lines_points = false;
+  bool levels = false, lines_points = false, foliage = false;
 };
 Result<Scene> load_scene(const std::filesystem::path& path, bool lights, const Wanted& wanted,
                          Context& context);

@@ -157,6 +157,12 @@ void SurfacePass::replace(const std::vector<std::uint32_t>& indices, const std::
   }
 }
 
+void SurfacePass::replace(std::size_t first, const std::vector<DrawVertex>& vertices) {
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_.get());
+  glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(first * sizeof(DrawVertex)),
+                  static_cast<GLsizeiptr>(vertices.size() * sizeof(DrawVertex)), vertices.data());
+}
+
 // GL 3.3 has no base instance: the attributes of a group's copies begin elsewhere instead.
 void SurfacePass::point_at(std::size_t first_copy) const {
   glBindBuffer(GL_ARRAY_BUFFER, copies_.get());

@@ -16,6 +16,9 @@ class SurfacePass {
   // Other triangles of the same vertices: ranges as many as the scene's, in its order.
   void replace(const std::vector<std::uint32_t>& indices, const std::vector<DrawRange>& ranges);
 
+  // The last vertices of the scene, from `first` on, moved.
+  void replace(std::size_t first, const std::vector<DrawVertex>& vertices);
+
   // The runs of copies that the next draws show: everything until it is called. Uploads them.
   void show(const Scene& scene, const std::vector<CopyRun>& runs);
 

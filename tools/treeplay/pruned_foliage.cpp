@@ -1,0 +1,69 @@
+#include "tools/treeplay/pruned_foliage.h"
+
+#include "tools/treeplay/range_owners.h"
+
+#include <cmath>
+#include <utility>
+
+namespace copse::treeplay {
+
+PrunedFoliage::PrunedFoliage(const Tree& tree, FoliageCells cells, TreeGeometry& geometry)
+    : cells_(std::make_unique<const FoliageCells>(std::move(cells))),
+      levels_(*cells_),
+      centres_(tree.leaves.centres.to_vector()),
+      cell_of_(tree.leaf_count(), 0) {
+  centres_.resize(tree.leaf_count());
+  for (std::uint32_t c = 0; c < cells_->cells.size(); ++c) {
+    const FoliageCell& cell = cells_->cells[c];
+    for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) cell_of_[cells_->order[i]] = c;
+  }
+  const std::vector<std::uint32_t> order = leaves_in_order(tree);
+  leaf_of_ = range_owners(tree, geometry.ranges);
+  first_vertex_ = static_cast<std::uint32_t>(geometry.vertices.size());
+  for (std::size_t r = 0; r < geometry.ranges.size(); ++r) {
+    const DrawRange& range = geometry.ranges[r];
+    if (range.part != DrawPart::leaves) {
+      leaf_of_[r].clear();
+      continue;
+    }
+    for (std::uint32_t& leaf : leaf_of_[r]) leaf = order[leaf];
+    for (std::uint32_t i = range.first_index; i < range.first_index + range.index_count; ++i) {
+      const DrawVertex vertex = geometry.vertices[geometry.indices[i]];
+      geometry.indices[i] = static_cast<std::uint32_t>(geometry.vertices.size());
+      geometry.vertices.push_back(vertex);
+    }
+  }
+}
+
+void PrunedFoliage::select(const TreeGeometry& geometry, const Double3& eye, Frame& out) const {
+  std::vector<CellLevel> levels(levels_.cell_count());
+  levels_.choose(eye, {}, levels);
+  std::vector<std::uint32_t> list(levels_.leaf_count());
+  out.leaf_count = levels_.extract(levels, list);
+  std::vector<std::uint8_t> shown(cell_of_.size(), 0);
+  for (std::size_t i = 0; i < out.leaf_count; ++i) shown[list[i]] = 1;
+  out.leaves.assign(geometry.vertices.begin() + first_vertex_, geometry.vertices.end());
+  out.indices.clear();
+  out.ranges = geometry.ranges;
+  for (std::size_t r = 0; r < out.ranges.size(); ++r) {
+    DrawRange& range = out.ranges[r];
+    const auto begin = geometry.indices.begin() + range.first_index;
+    range.first_index = static_cast<std::uint32_t>(out.indices.size());
+    if (range.part != DrawPart::leaves)
+      out.indices.insert(out.indices.end(), begin, begin + range.index_count);
+    for (std::size_t t = 0; t < leaf_of_[r].size(); ++t) {
+      const std::uint32_t leaf = leaf_of_[r][t];
+      if (!shown[leaf]) continue;
+      const float scale = std::sqrt(levels[cell_of_[leaf]].enlargement);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint32_t v = begin[static_cast<std::ptrdiff_t>(3 * t + c)];
+        Float3& p = out.leaves[v - first_vertex_].position;
+        p = centres_[leaf] + (p - centres_[leaf]) * scale;
+        out.indices.push_back(v);
+      }
+    }
+    range.index_count = static_cast<std::uint32_t>(out.indices.size()) - range.first_index;
+  }
+}
+
+}  // namespace copse::treeplay
