@@ -1,5 +1,6 @@
 #include "lib/formats/impostors.h"
 
+#include "tests/formats/tampering.h"
 #include "tests/formats/tree_maker.h"
 
 #include <algorithm>
@@ -32,14 +33,18 @@ ImpostorAtlas atlas() {
           .normal = png(32, 32)};
 }
 
-Result<ImpostorAtlas> through_a_file(const ImpostorAtlas& a) {
+std::vector<std::uint8_t> file_with(const ImpostorAtlas& a) {
   const auto bytes = encode_tree(make_tree({}, 1));
   EXPECT_TRUE(bytes.has_value());
   const auto container = Container::from_bytes(*bytes, "test");
   EXPECT_TRUE(container.has_value());
   ContainerWriter writer(*container);
   EXPECT_TRUE(put_impostor(writer, a).has_value());
-  const auto file = TreeFile::from_bytes(writer.finish().value(), "test");
+  return writer.finish().value();
+}
+
+Result<ImpostorAtlas> through_a_file(const ImpostorAtlas& a) {
+  const auto file = TreeFile::from_bytes(file_with(a), "test");
   EXPECT_TRUE(file.has_value());
   return read_impostor(*file);
 }
@@ -78,6 +83,30 @@ TEST(Impostors, EachThingThatIsWrongIsNamed) {
   EXPECT_NE(wrong([](auto& a) { a.normal = {}; }).find("IMPN"), std::string::npos);
   EXPECT_NE(wrong([](auto& a) { a.normal = std::vector<std::uint8_t>(100, 7); }).find("PNG"),
             std::string::npos);
+}
+
+// Whatever one byte becomes, with the checksums put right: refused, or sound.
+TEST(Impostors, ForgedBytesAreRefusedOrSound) {
+  const std::vector<std::uint8_t> sound = file_with(atlas());
+  int refused = 0;
+  for (const char* section : {"IMPO", "IMPA", "IMPN"}) {
+    const std::size_t first = tampering::section_at(sound, section);
+    for (std::size_t i = 0; i < 32; ++i) {
+      for (const std::uint8_t value : {0x00, 0x01, 0x7f, 0x80, 0xff}) {
+        std::vector<std::uint8_t> bytes = sound;
+        bytes[first + i] = value;
+        tampering::mend_checksums(bytes);
+        const auto file = TreeFile::from_bytes(bytes, "forged");
+        ASSERT_TRUE(file.has_value());
+        const auto read = read_impostor(*file);
+        refused += read ? 0 : 1;
+        if (read) {
+          EXPECT_EQ(check_impostor(*read), "") << section << " " << i;
+        }
+      }
+    }
+  }
+  EXPECT_GT(refused, 200);
 }
 
 TEST(Impostors, TheOctahedralMapGoesThereAndBack) {

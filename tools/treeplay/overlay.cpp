@@ -53,7 +53,7 @@ void facts_panel(const Overlay::Facts& facts) {
   ImGui::Text("%llu triangles, %zu vertices", static_cast<unsigned long long>(scene.triangles()),
               scene.geometry.vertices.size());
   if (scene.skeleton) {
-    ImGui::Text("%zu radii, %zu levels, %zu leaves in %zu groups", scene.skeleton->points.size(),
+    ImGui::Text("%zu radii, %zu branch levels, %zu leaves in %zu groups", scene.skeleton->points.size(),
                 std::size_t{scene.skeleton->levels}, scene.skeleton->leaves.size(),
                 scene.skeleton->groups.size());
   }
