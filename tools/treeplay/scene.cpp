@@ -132,6 +132,9 @@ Result<void> take_foliage(Scene& scene, const TreeFile& file, const Tree& tree) 
     return refuse(name, "holds no foliage cells", "bake them with lodbake --foliage prune");
   if (cells->parameters.leaves != hash_leaves(tree))
     return refuse(name, "its foliage cells are those of other leaves", "bake them again with lodbake");
+  if (tree.leaves.centres.size() != tree.leaf_count())
+    return refuse(name, "lacks the leaf centres round which leaves grow",
+                  "prepare the tree with them (LCEN)");
   scene.foliage.emplace(tree, std::move(*cells), scene.geometry);
   return {};
 }
