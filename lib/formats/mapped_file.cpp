@@ -1,5 +1,6 @@
 #include "lib/formats/mapped_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -29,11 +30,18 @@ struct Mapping {
   ~Mapping() { ::munmap(start, size); }
 };
 
-Result<std::vector<std::uint8_t>> read_to_end(int file, const std::string& name) {
+// One byte more than `most` is asked for, to tell a pipe that holds that from one that goes on.
+Result<std::vector<std::uint8_t>> read_to_end(int file, const std::string& name, std::size_t most) {
   std::vector<std::uint8_t> bytes;
   std::size_t used = 0;
   for (;;) {
-    if (used == bytes.size()) bytes.resize(std::max<std::size_t>(std::size_t{1} << 16, 2 * used));
+    if (used > most) {
+      return refuse(name, "the pipe holds more than " + std::to_string(most) + " bytes",
+                    "write them to a file and name that");
+    }
+    if (used == bytes.size()) {
+      bytes.resize(std::min(most + 1, std::max<std::size_t>(std::size_t{1} << 16, 2 * used)));
+    }
     const ssize_t n = ::read(file, bytes.data() + used, bytes.size() - used);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return fail(Fault::io, name, std::strerror(errno), "check the program that writes the pipe");
@@ -46,7 +54,7 @@ Result<std::vector<std::uint8_t>> read_to_end(int file, const std::string& name)
 
 }  // namespace
 
-Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
+Result<MappedFile> MappedFile::open(const std::filesystem::path& path, std::size_t most_of_a_pipe) {
   const std::string name = path.string();
   const auto failed = [&] {
     return fail(Fault::io, name, std::strerror(errno), "check the path and its permissions");
@@ -58,7 +66,7 @@ Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
 
   MappedFile mapped;
   if (S_ISFIFO(status.st_mode)) {
-    auto bytes = read_to_end(file.number, name);
+    auto bytes = read_to_end(file.number, name, most_of_a_pipe);
     if (!bytes) return std::unexpected(bytes.error());
     auto owner = std::make_shared<const std::vector<std::uint8_t>>(std::move(*bytes));
     mapped.bytes_ = *owner;

@@ -3,8 +3,10 @@
 #include "lib/formats/atomic_file.h"
 #include "lib/formats/mapped_file.h"
 
+#include <csignal>
 #include <thread>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -62,6 +64,30 @@ TEST(MappedFile, ReadsAPipeToItsEnd) {
   ASSERT_TRUE(file);
   EXPECT_EQ(std::string(file->bytes().begin(), file->bytes().end()), bytes);
   ::unlink(path.c_str());
+}
+
+TEST(MappedFile, RefusesAPipeThatGoesOn) {
+  for (const std::size_t most :
+       {std::size_t{0}, std::size_t{4095}, std::size_t{199999}, std::size_t{200000}}) {
+    const std::string path = temporary("endless"), bytes(200000, 'y');
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    std::jthread writer([&] {
+      ::signal(SIGPIPE, SIG_IGN);
+      const int pipe = ::open(path.c_str(), O_WRONLY);
+      for (std::size_t sent = 0; sent < bytes.size();) {
+        const ssize_t n = ::write(pipe, bytes.data() + sent, bytes.size() - sent);
+        if (n <= 0) break;  // the reader has left
+        sent += static_cast<std::size_t>(n);
+      }
+      ::close(pipe);
+    });
+    const auto file = MappedFile::open(path, most);
+    EXPECT_EQ(file.has_value(), most == bytes.size());
+    if (!file) {
+      EXPECT_EQ(file.error().what, "the pipe holds more than " + std::to_string(most) + " bytes");
+    }
+    ::unlink(path.c_str());
+  }
 }
 
 TEST(MappedFile, RefusesWhatIsNoFile) {

@@ -73,6 +73,12 @@ TEST(PartVerdicts, ErrorsListTwelveNamesAndCountTheRest) {
   EXPECT_NE(none.error().remedy.find("no names"), std::string::npos);
 }
 
+TEST(PartVerdicts, NothingNamesNothing) {
+  const auto v = part_verdicts(mesh_of({{"bark", "", ""}}), {.trunk_patterns = {}, .leaf_patterns = {""}});
+  ASSERT_FALSE(v.has_value());
+  EXPECT_EQ(v.error().what, "--leaf '' matches no material, group or object");
+}
+
 TEST(PartVerdicts, AStarAloneTakesWhatHasNoName) {
   const auto v = verdicts(mesh_of({{"", "", ""}}), {.trunk_patterns = {"*"}, .leaf_patterns = {}});
   EXPECT_EQ(v[0].kind, NameClass::trunk);

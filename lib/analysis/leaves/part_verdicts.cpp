@@ -51,7 +51,8 @@ class Patterns {
       bool used = false;
       for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
         for (const auto& [what, name] : names_of(mesh, mesh.parts[p])) {
-          if (!glob_match(pattern, name)) continue;  // "*" also takes what has no name
+          // "*" also takes what has no name; nothing at all names nothing.
+          if (pattern.empty() || !glob_match(pattern, name)) continue;
           used = true;
           if (claims_[p].empty()) {
             claims_[p] = option_ + (" '" + pattern + "' matches ") + (name.empty() ? "a " : "") + what;
