@@ -51,6 +51,14 @@ bool is_corner(const Surface& surface, const Bands& bands, std::uint32_t band) {
   return 2 * bordered < bands.ring(2 * band).size();
 }
 
+// What takes no corner for a point can go on where one was.
+void grow_on(const Surface& surface, Bands& bands) {
+  if (bands.triangles.size() == surface.triangles.size()) return;
+  BandGrowth growth(surface, bands);
+  growth.start_at_bands(0);
+  growth.run(false);
+}
+
 Bands without_corners(const Surface& surface, const Bands& all) {
   Bands kept;
   kept.band_of.assign(surface.triangles.size(), k_none);
@@ -69,7 +77,10 @@ Bands read_bands(const Surface& surface) {
     Bands by_shape = read_bands(surface, false);
     if (by_shape.triangles.size() > bands.triangles.size()) bands = std::move(by_shape);
   }
-  return without_corners(surface, bands);
+  const std::size_t before = bands.triangles.size();
+  bands = without_corners(surface, bands);
+  if (bands.triangles.size() < before) grow_on(surface, bands);
+  return bands;
 }
 
 RingReading read_fork_rings(const Surface& surface) {
