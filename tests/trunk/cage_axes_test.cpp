@@ -138,6 +138,26 @@ TEST(CageAxes, PutsAForkWhereTheAxesMeet) {
   EXPECT_EQ(std::ranges::count(h.segment_of, k_none), 0);
 }
 
+// No end to begin with: a frame of cells, alone and with a limb.
+TEST(CageAxes, HasOneRootWhereLimbsCloseARing) {
+  std::vector<Cell> frame;
+  for (int x = 0; x < 5; ++x) {
+    for (int y = 0; y < 5; ++y) {
+      if (x == 0 || y == 0 || x == 4 || y == 4) frame.push_back({x, y, 0});
+    }
+  }
+  for (const bool with_limb : {false, true}) {
+    if (with_limb) frame.insert(frame.end(), {{5, 2, 0}, {6, 2, 0}, {7, 2, 0}});
+    const Surface s = surface_of(smooth_cells(frame, 1));
+    const auto cage = reverse_subdivision(s);
+    ASSERT_TRUE(cage);
+    const Hierarchy h = cage_axes(*cage);
+    ASSERT_FALSE(h.radii.empty());
+    EXPECT_EQ(std::ranges::count(h.radii, k_none, &RadiusNode::parent), 1);
+    EXPECT_EQ(breach(h, s.positions.size(), s.triangles.size()), "");
+  }
+}
+
 TEST(CageAxes, HasNothingToSayOfWhatHasNoRings) {
   Maker cube;
   const auto a = cube.ring({0, 0, 0}, {0, 1, 0}, 1);

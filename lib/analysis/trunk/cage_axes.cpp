@@ -102,6 +102,7 @@ class CageAxes {
     if (bands_.count() == 0 || 2 * bands_.triangles.size() < s_.triangles.size()) return {};
     place_stations();
     list_neighbours();
+    stations_[0].is_kept = true;  // everything hangs on it, also where it is no end
     for (std::uint32_t i = 0; i < stations_.size(); ++i) {
       if (is_fork(i)) meet(i);
     }
