@@ -56,6 +56,8 @@ class RangeCoder {
   std::vector<std::uint8_t> finish();
   // Decoding: more was read than is there, or a number that no encoder writes. Reading goes on with zeros.
   bool failed() const { return failed_; }
+  // Decoding: bytes that have not been read.
+  std::size_t left() const { return bytes_.size() - at_; }
   // Decoding: everything was read and nothing is left over.
   bool exhausted() const { return !failed_ && at_ == bytes_.size(); }
 

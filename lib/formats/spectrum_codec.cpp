@@ -2,10 +2,13 @@
 
 #include "lib/formats/little_endian.h"
 #include "lib/formats/octahedral.h"
+#include "lib/formats/spectrum_leaves.h"
+#include "lib/formats/spectrum_trunk.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <meshoptimizer.h>
@@ -331,15 +334,54 @@ std::expected<Spectrum, Text> decode_fast(std::span<const std::uint8_t> bytes, S
 
 }  // namespace
 
-Result<EncodedSpectrum> encode(const Spectrum& s, const SpectrumCodingOptions& options) {
-  if (options.coding == SpectrumCoding::small) return encode_small(s, options);
+// Nothing where the spectrum is not one of the tree's own, or would not be what it was when it is read.
+std::optional<EncodedSpectrum> encode_based(const Spectrum& s, const SpectrumCodingOptions& options,
+                                            const Tree& tree) {
+  const bool trunk = s.method == LodMethod::radii;
+  if (!trunk && s.method != LodMethod::collapse) return std::nullopt;
+  auto coded = trunk ? spectrum_trunk::encode(s, tree, options) : spectrum_leaves::encode(s, tree, options);
+  if (!coded) return std::nullopt;
+  const auto back = trunk ? spectrum_trunk::decode(coded->bytes, s.method, tree)
+                          : spectrum_leaves::decode(coded->bytes, s.method, tree);
+  if (!back || back->elements.size() != s.elements.size() || back->triangles.size() != s.triangles.size())
+    return std::nullopt;
+  Bytes out = header_of(*back, SpectrumCoding::based);
+  out.insert(out.end(), coded->bytes.begin(), coded->bytes.end());
+  coded->bytes = std::move(out);
+  return coded;
+}
+
+std::expected<Spectrum, Text> decode_based(std::span<const std::uint8_t> bytes, LodMethod method,
+                                           const Tree& tree) {
+  const std::uint64_t vertices = get<std::uint32_t>(bytes, 8), elements = get<std::uint32_t>(bytes, 12),
+                      triangles = get<std::uint32_t>(bytes, 16), states = get<std::uint32_t>(bytes, 20);
+  const std::uint64_t own = tree.leaves.triangles.size() + tree.trunk.triangles.size();
+  if (32 * vertices + 20 * elements + 12 * triangles + 8 * states >
+      k_free_decoded_bytes + k_max_expansion * (bytes.size() + own))
+    return std::unexpected("it claims to be larger than it can be");
+  if (method != LodMethod::collapse && method != LodMethod::radii)
+    return std::unexpected("this method is not coded against the tree");
+  auto s = method == LodMethod::radii ? spectrum_trunk::decode(bytes.subspan(k_header), method, tree)
+                                      : spectrum_leaves::decode(bytes.subspan(k_header), method, tree);
+  if (s && (s->vertices.size() != vertices || s->elements.size() != elements ||
+            s->triangles.size() != triangles || s->errors.size() != states))
+    return std::unexpected("its header counts something else than what it holds");
+  return s;
+}
+
+Result<EncodedSpectrum> encode(const Spectrum& s, const SpectrumCodingOptions& options, const Tree* tree) {
+  if (options.coding == SpectrumCoding::small) {
+    if (tree != nullptr)
+      if (auto based = encode_based(s, options, *tree)) return std::move(*based);
+    return encode_small(s, options);
+  }
   EncodedSpectrum out{.bytes = header_of(s, SpectrumCoding::fast)};
   add_array(out.bytes, s.vertices), add_array(out.bytes, s.elements), add_array(out.bytes, s.first_triangle);
   add_array(out.bytes, s.triangles), add_array(out.bytes, s.errors);
   return out;
 }
 
-std::expected<Spectrum, std::string> decode(std::span<const std::uint8_t> bytes) {
+std::expected<Spectrum, std::string> decode(std::span<const std::uint8_t> bytes, const Tree* tree) {
   if (bytes.size() < k_header) return std::unexpected("it is cut off");
   const auto method = get<std::uint32_t>(bytes, 0), coding = get<std::uint32_t>(bytes, 4);
   if (method < 1 || method > 4)
@@ -348,6 +390,10 @@ std::expected<Spectrum, std::string> decode(std::span<const std::uint8_t> bytes)
   s.method = static_cast<LodMethod>(method);
   if (coding == static_cast<std::uint32_t>(SpectrumCoding::fast)) return decode_fast(bytes, std::move(s));
   if (coding == static_cast<std::uint32_t>(SpectrumCoding::small)) return decode_small(bytes, std::move(s));
+  if (coding == static_cast<std::uint32_t>(SpectrumCoding::based)) {
+    if (tree == nullptr) return std::unexpected("it is coded against the tree, which is not there");
+    return decode_based(bytes, s.method, *tree);
+  }
   return std::unexpected(fmt::format("coding {} is unknown to this program", coding));
 }
 

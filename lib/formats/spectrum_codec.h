@@ -9,10 +9,11 @@
 
 namespace copse::spectrum_codec {
 
-Result<EncodedSpectrum> encode(const Spectrum& spectrum, const SpectrumCodingOptions& options);
+Result<EncodedSpectrum> encode(const Spectrum& spectrum, const SpectrumCodingOptions& options,
+                               const Tree* tree);
 
 // Sizes are checked against what is stored before memory is taken; the text of the error says what is wrong.
 // Counts are left empty; elements and indices are not checked.
-std::expected<Spectrum, std::string> decode(std::span<const std::uint8_t> bytes);
+std::expected<Spectrum, std::string> decode(std::span<const std::uint8_t> bytes, const Tree* tree);
 
 }  // namespace copse::spectrum_codec

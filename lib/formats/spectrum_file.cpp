@@ -2,9 +2,11 @@
 
 #include "lib/formats/little_endian.h"
 #include "lib/formats/spectrum_codec.h"
+#include "lib/formats/tree_file.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,11 @@ constexpr std::size_t k_level_record = 20, k_levels_header = 20;
 
 std::unexpected<Error> bad(const std::string& name, const std::string& what) {
   return refuse(name, what, "restore the file, or bake its levels again");
+}
+
+bool is_based(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= 8 &&
+         get<std::uint32_t>(bytes, 4) == static_cast<std::uint32_t>(SpectrumCoding::based);
 }
 
 bool fits(const Spectrum& s) {
@@ -108,14 +115,16 @@ std::string check_level(const LodSpectra& s, const LodLevel& l, const LodLevel* 
 
 }  // namespace
 
-Result<EncodedSpectrum> encode_spectrum(const Spectrum& spectrum, const SpectrumCodingOptions& options) {
+Result<EncodedSpectrum> encode_spectrum(const Spectrum& spectrum, const SpectrumCodingOptions& options,
+                                        const Tree* tree) {
   if (!fits(spectrum))
     return fail(Fault::bug, "", "a spectrum whose arrays do not fit together", "report this");
-  return spectrum_codec::encode(spectrum, options);
+  return spectrum_codec::encode(spectrum, options, tree);
 }
 
-Result<Spectrum> decode_spectrum(std::span<const std::uint8_t> bytes, const std::string& name) {
-  auto spectrum = spectrum_codec::decode(bytes);
+Result<Spectrum> decode_spectrum(std::span<const std::uint8_t> bytes, const std::string& name,
+                                 const Tree* tree) {
+  auto spectrum = spectrum_codec::decode(bytes, tree);
   if (!spectrum) return bad(name, spectrum.error());
   if (spectrum->first_triangle.size() != spectrum->elements.size() + 1 || spectrum->errors.empty())
     return bad(name, "its arrays do not fit together");
@@ -180,12 +189,12 @@ Result<void> decode_levels(std::span<const std::uint8_t> bytes, const std::strin
 }
 
 Result<SpectraErrors> put_spectra(ContainerWriter& writer, const LodSpectra& spectra,
-                                  const SpectrumCodingOptions& options) {
+                                  const SpectrumCodingOptions& options, const Tree* tree) {
   SpectraErrors errors;
   const auto add = [&](const char* name, const Spectrum& s, double& error) -> Result<void> {
     writer.remove(name);
     if (s.elements.empty()) return {};
-    auto encoded = encode_spectrum(s, options);
+    auto encoded = encode_spectrum(s, options, tree);
     if (!encoded) return std::unexpected(encoded.error());
     error = encoded->position_error;
     return writer.put(name, k_spectrum_version, 1, std::move(encoded->bytes));
@@ -203,6 +212,7 @@ bool has_spectra(const Container& file) {
 
 Result<LodSpectra> load_spectra(const Container& file, std::size_t radii, std::size_t materials) {
   LodSpectra spectra;
+  std::optional<Tree> tree;  // loaded when a spectrum is coded against it
   const auto load = [&](const char* name, Spectrum& out) -> Result<void> {
     const SectionInfo* section = file.find(name);
     if (!section) return {};
@@ -211,7 +221,13 @@ Result<LodSpectra> load_spectra(const Container& file, std::size_t radii, std::s
                                  fmt::format("version {} is unknown to this program", section->version));
     const auto bytes = file.read(*section);
     if (!bytes) return std::unexpected(bytes.error());
-    auto decoded = decode_spectrum(*bytes, file.name());
+    if (!tree && is_based(*bytes)) {
+      auto own = TreeFile::from_container(file);
+      auto whole = own ? own->load() : std::unexpected(own.error());
+      if (!whole) return std::unexpected(whole.error());
+      tree = std::move(*whole);
+    }
+    auto decoded = decode_spectrum(*bytes, file.name(), tree ? &*tree : nullptr);
     if (!decoded) return file.refuse_section(*section, 0, decoded.error().what);
     if (const std::string wrong = check_spectrum_links(*decoded, radii, materials); !wrong.empty())
       return file.refuse_section(*section, 0, wrong);

@@ -8,6 +8,7 @@
 #include "lib/formats/container.h"
 #include "lib/formats/result.h"
 #include "lib/formats/spectrum.h"
+#include "lib/formats/tree.h"
 
 #include <cstdint>
 #include <span>
@@ -21,6 +22,7 @@ inline constexpr std::uint32_t k_spectrum_version = 1;
 enum class SpectrumCoding : std::uint32_t {
   fast = 0,   // every array as it lies in memory: exact, nothing to decode
   small = 1,  // quantised, then coded by meshoptimizer and zstd
+  based = 2,  // against the tree that it is of: full detail is the tree's, the rest lies beside it
 };
 
 struct SpectrumCodingOptions {
@@ -36,11 +38,16 @@ struct EncodedSpectrum {
 };
 
 // Deterministic. Errors: a spectrum whose arrays do not fit together is a bug of the caller.
-Result<EncodedSpectrum> encode_spectrum(const Spectrum& spectrum, const SpectrumCodingOptions& options);
+// SpectrumCoding::small becomes `based` where there is a tree whose full detail the spectrum's is, and a
+// method that can be.
+Result<EncodedSpectrum> encode_spectrum(const Spectrum& spectrum, const SpectrumCodingOptions& options,
+                                        const Tree* tree = nullptr);
 
 // `name` stands in messages. Indices, lifetimes, order and sizes are checked; counts are made anew from the
 // elements. Radii and materials are not known here: check_spectrum_links does those.
-Result<Spectrum> decode_spectrum(std::span<const std::uint8_t> bytes, const std::string& name);
+// `tree`: without it, what is coded against the tree is refused.
+Result<Spectrum> decode_spectrum(std::span<const std::uint8_t> bytes, const std::string& name,
+                                 const Tree* tree = nullptr);
 
 // Radii and materials of the elements are below these, or none; empty when all is well.
 std::string check_spectrum_links(const Spectrum& spectrum, std::size_t radii, std::size_t materials);
@@ -55,10 +62,11 @@ struct SpectraErrors {
 };
 // Adds or replaces the three sections; an empty spectrum has none.
 Result<SpectraErrors> put_spectra(ContainerWriter& writer, const LodSpectra& spectra,
-                                  const SpectrumCodingOptions& options);
+                                  const SpectrumCodingOptions& options, const Tree* tree = nullptr);
 
 // Whether there are levels; and all of them, checked against the tree's counts.
 bool has_spectra(const Container& file);
+// The tree is taken from the file itself where it is needed.
 Result<LodSpectra> load_spectra(const Container& file, std::size_t radii, std::size_t materials);
 
 }  // namespace copse

@@ -46,6 +46,7 @@ class TreeFile {
   // The same over bytes in memory, for tests and fuzzers; `name` stands in messages.
   static Result<TreeFile> from_bytes(std::vector<std::uint8_t> bytes, std::string name,
                                      Trust trust = Trust::nothing);
+  static Result<TreeFile> from_container(Container container, Trust trust = Trust::nothing);
 
   const TreeHeader& header() const;
   const std::vector<SectionInfo>& sections() const;  // as stored: PACK stands for those that it packs
@@ -70,7 +71,6 @@ class TreeFile {
  private:
   struct Impl;
   explicit TreeFile(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
-  static Result<TreeFile> from_container(Container container, Trust trust);
   Result<Tree> load_named(const std::vector<std::string>* only) const;
   std::shared_ptr<const Impl> impl_;
 };

@@ -11,16 +11,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include <fmt/format.h>
 
 namespace copse {
-namespace {
-
-constexpr std::size_t k_pack_header = 8;  // two i32: the exponents of the grids
-constexpr std::int32_t k_least_exponent = -120, k_most_exponent = 100;
-
-// ---- groups -----------------------------------------------------------------------------------------------
 
 struct PackedGroups {
   std::vector<Grid3> centres;
@@ -31,6 +26,20 @@ struct PackedGroups {
   };
   std::vector<Node> nodes;
 };
+
+struct PackPlan {
+  PackGrid grid;
+  PackedTrunk trunk;
+  PackedLeaves leaves;
+  PackedGroups groups;
+};
+
+namespace {
+
+constexpr std::size_t k_pack_header = 8;  // two i32: the exponents of the grids
+constexpr std::int32_t k_least_exponent = -120, k_most_exponent = 100;
+
+// ---- groups -----------------------------------------------------------------------------------------------
 
 class GroupCoder {
  public:
@@ -170,11 +179,10 @@ bool holds(const PackGrid& grid, const Tree& tree) {
          uv_far / grid.texcoord_step() < double(k_grid_limit) / 2;
 }
 
-// Each group's leaves together, in the order asked for; where the file says how a group's leaves are ordered,
-// that order stands.
-std::vector<std::uint32_t> leaf_order(const Tree& tree, std::span<const std::uint32_t> wanted) {
-  std::vector<std::uint32_t> rank(tree.leaf_count()), order = tree.leaves.order.to_vector();
-  for (std::uint32_t i = 0; i < rank.size(); ++i) rank[wanted.empty() ? i : wanted[i]] = i;
+// Each group's leaves together, by `rank`; where the file says how a group's leaves are ordered, that order
+// stands.
+std::vector<std::uint32_t> leaf_order(const Tree& tree, std::span<const std::uint32_t> rank) {
+  std::vector<std::uint32_t> order = tree.leaves.order.to_vector();
   if (tree.header.leaf_order != LeafOrder::group) return order;
   for (const LeafGroup& g : tree.leaves.groups)
     std::sort(order.begin() + g.first, order.begin() + g.first + g.count,
@@ -182,20 +190,13 @@ std::vector<std::uint32_t> leaf_order(const Tree& tree, std::span<const std::uin
   return order;
 }
 
-struct Plan {
-  PackGrid grid;
-  PackedTrunk trunk;
-  PackedLeaves leaves;
-  PackedGroups groups;
-};
-
-std::string code(RangeCoder& coder, Plan& plan, const Head& head) {
+std::string code(RangeCoder& coder, PackPlan& plan, const Head& head) {
   if (std::string wrong = code_trunk(coder, plan.trunk, head); !wrong.empty()) return wrong;
   if (std::string wrong = code_leaves(coder, plan.leaves, head); !wrong.empty()) return wrong;
   return GroupCoder(coder, plan.groups, plan.leaves, head).run();
 }
 
-std::expected<Tree, std::string> build(const Plan& plan, const Head& head,
+std::expected<Tree, std::string> build(const PackPlan& plan, const Head& head,
                                        const std::vector<Material>& materials) {
   Tree tree;
   tree.header = head.header;
@@ -206,6 +207,26 @@ std::expected<Tree, std::string> build(const Plan& plan, const Head& head,
   build_groups(plan.groups, plan.leaves, plan.grid, tree);
   derive(tree);
   return tree;
+}
+
+// The bytes of a plan and what will be read from them.
+Result<PackedTree> written(PackPlan plan, const Head& head, const Tree& like) {
+  auto built = build(plan, head, like.materials);
+  if (!built) return refuse("", built.error(), "store it with --encode fast");
+  PackedTree out;
+  out.tree = std::move(*built);
+  out.tree.textures = like.textures, out.tree.provenance = like.provenance;
+  RangeCoder coder;
+  if (const std::string wrong = code(coder, plan, head_of(out.tree)); !wrong.empty())
+    return fail(Fault::bug, "", "a packed tree that does not read: " + wrong, "report this");
+  out.bytes.resize(k_pack_header);
+  put(std::span(out.bytes), 0, plan.grid.position), put(std::span(out.bytes), 4, plan.grid.texcoord);
+  const std::vector<std::uint8_t> coded = coder.finish();
+  out.bytes.insert(out.bytes.end(), coded.begin(), coded.end());
+  out.trunk_error = plan.trunk.largest_error * plan.grid.step();
+  out.leaf_error = plan.leaves.largest_error * plan.grid.step();
+  out.plan = std::make_shared<const PackPlan>(std::move(plan));
+  return out;
 }
 
 }  // namespace
@@ -227,30 +248,34 @@ std::string why_unpackable(const Tree& tree) {
 Result<PackedTree> pack_tree(const Tree& tree, const PackOptions& options) {
   if (const std::string why = why_unpackable(tree); !why.empty())
     return fail(Fault::bug, "", "a tree that cannot be packed: " + why, "report this");
-  Plan plan{.grid = grid_of(tree, options), .trunk = {}, .leaves = {}, .groups = {}};
+  PackPlan plan{.grid = grid_of(tree, options), .trunk = {}, .leaves = {}, .groups = {}};
   if (!holds(plan.grid, tree))
     return refuse(
         "",
         "the tree lies too far from its origin, or its texture repeats too often, for a grid of this step",
         "store it with --encode fast, or with fewer --position-bits");
   plan.trunk = plan_trunk(tree, plan.grid);
-  plan.leaves = plan_leaves(tree, plan.grid, leaf_order(tree, options.leaf_order));
+  std::vector<std::uint32_t> rank(tree.leaf_count());
+  std::iota(rank.begin(), rank.end(), 0u);
+  plan.leaves = plan_leaves(tree, plan.grid, leaf_order(tree, rank));
   plan.groups = plan_groups(tree, plan.grid);
-  const double step = plan.grid.step();
-  PackedTree out;
-  out.trunk_error = plan.trunk.largest_error * step, out.leaf_error = plan.leaves.largest_error * step;
-  auto built = build(plan, head_of(tree), tree.materials);
-  if (!built) return refuse("", built.error(), "store it with --encode fast");
-  out.tree = std::move(*built);
-  out.tree.textures = tree.textures, out.tree.provenance = tree.provenance;
-  RangeCoder coder;
-  if (const std::string wrong = code(coder, plan, head_of(out.tree)); !wrong.empty())
-    return fail(Fault::bug, "", "a packed tree that does not read: " + wrong, "report this");
-  out.bytes.resize(k_pack_header);
-  put(std::span(out.bytes), 0, plan.grid.position), put(std::span(out.bytes), 4, plan.grid.texcoord);
-  const std::vector<std::uint8_t> coded = coder.finish();
-  out.bytes.insert(out.bytes.end(), coded.begin(), coded.end());
-  return out;
+  return written(std::move(plan), head_of(tree), tree);
+}
+
+Result<PackedTree> renumbered(const PackedTree& packed, std::span<const std::uint32_t> leaves) {
+  PackPlan plan = *packed.plan;
+  std::vector<std::uint32_t> rank(leaves.size());
+  for (std::uint32_t i = 0; i < rank.size(); ++i) rank[leaves[i]] = i;
+  std::vector<PackedLeaf> list;
+  Tree numbered;  // whose leaves are in the order of the plan
+  numbered.header.leaf_order = packed.tree.header.leaf_order,
+  numbered.leaves.groups = packed.tree.leaves.groups;
+  std::vector<std::uint32_t> as_is(leaves.size());
+  std::iota(as_is.begin(), as_is.end(), 0u);
+  numbered.leaves.order = as_is;
+  for (const std::uint32_t leaf : leaf_order(numbered, rank)) list.push_back(plan.leaves.list[leaf]);
+  plan.leaves.list = std::move(list);
+  return written(std::move(plan), head_of(packed.tree), packed.tree);
 }
 
 std::expected<Tree, std::string> unpack_tree(std::span<const std::uint8_t> bytes, const Head& head,
@@ -264,10 +289,10 @@ std::expected<Tree, std::string> unpack_tree(std::span<const std::uint8_t> bytes
   });
   if (decoded > k_free_decoded_bytes + k_max_expansion * bytes.size())
     return std::unexpected("the header counts more than it can hold");
-  Plan plan{.grid = {get<std::int32_t>(bytes, 0), get<std::int32_t>(bytes, 4)},
-            .trunk = {},
-            .leaves = {},
-            .groups = {}};
+  PackPlan plan{.grid = {get<std::int32_t>(bytes, 0), get<std::int32_t>(bytes, 4)},
+                .trunk = {},
+                .leaves = {},
+                .groups = {}};
   for (const std::int32_t e : {plan.grid.position, plan.grid.texcoord})
     if (e < k_least_exponent || e > k_most_exponent)
       return std::unexpected("the step of its grid is out of range");

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <expected>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,25 +23,29 @@ namespace copse {
 struct PackOptions {
   int position_bits = 14;  // of the longest side of the box, about; 8 to 20
   int texcoord_bits = 12;  // of 1, or of the largest coordinate when it is larger; 8 to 20
-  // The leaves in the order in which they are to be stored, empty for as they are; each group's come together
-  // whatever it says.
-  std::span<const std::uint32_t> leaf_order = {};
 };
 
 // Why this tree cannot be packed: it is a .tree, or sections of it were left out. Empty: it can.
 std::string why_unpackable(const Tree& tree);
+
+struct PackPlan;
 
 struct PackedTree {
   std::vector<std::uint8_t> bytes;
   Tree tree;  // as it will be read
   // The largest distance of a vertex from where it was, metres.
   double trunk_error = 0, leaf_error = 0;
+  std::shared_ptr<const PackPlan> plan;  // of `bytes`; for renumbered()
 };
 
 // Deterministic. Linear in the tree but for sorting. Leaves are renumbered: the leaves of group 0 come first,
 // then those of group 1. Errors: an unpackable tree is a mistake of the caller; coordinates that no grid of
 // this fineness holds are refused.
 Result<PackedTree> pack_tree(const Tree& tree, const PackOptions& options);
+
+// The same with other numbers for the leaves: in the order of `leaves`, each group's together. Every vertex
+// and normal stays what it is. Where the file says how a group's leaves are ordered, that order stands.
+Result<PackedTree> renumbered(const PackedTree& packed, std::span<const std::uint32_t> leaves);
 
 // The tree, but for what `head` and `materials` do not hold. What is wrong is told; nothing is trusted but
 // that `head` is a sound HEAD. Memory is bounded by the counts of the head, which are refused when the bytes

@@ -1,7 +1,7 @@
 #include "lib/analysis/lod/trunk_radii.h"
 
 #include "lib/analysis/lod/limb_chains.h"
-#include "lib/analysis/lod/part_triangles.h"
+#include "lib/formats/part_triangles.h"
 #include "lib/analysis/measure/raster.h"
 #include "lib/formats/level_mesh.h"
 #include "tests/lod/tube_tree.h"

@@ -200,7 +200,7 @@ TEST_F(Lodbake, SmallIsSmallerAndSaysHowWrongItIs) {
   const auto report = nlohmann::json::parse(read_text(folder_.path() / "r.json"));
   double error = -1;
   for (const auto& e : report["errors"])
-    if (e["name"] == "quantisation of the trunk, largest") error = e["value"];
+    if (e["name"] == "packing of the trunk, largest") error = e["value"];
   EXPECT_GT(error, 0);
   EXPECT_LT(error, 0.01);
   EXPECT_GT(triangles({"--level", "1"}), 0u);
@@ -304,6 +304,45 @@ TEST_F(Lodbake, LinesAndPointsNeedTheirSections) {
 TEST_F(Lodbake, ByEdgesItWorksToo) {
   ASSERT_EQ(bake({"--trunk", "edges", "--discrete", "0.5", "--divide", "even"}).status, 0);
   EXPECT_LE(triangles({"--level", "1"}), (8u * 2 * 11 + 60) / 2);
+}
+
+TEST_F(Lodbake, ASmallFileDoesAllThatAFastOneDoes) {
+  ASSERT_EQ(bake({"--discrete", "0.5,0.2", "--divide", "even"}).status, 0);
+  const auto fast = std::filesystem::file_size(out_);
+  const std::size_t full = triangles({}), half = triangles({"--level", "1"}),
+                    fifth = triangles({"--level", "2"});
+  ASSERT_EQ(bake({"--discrete", "0.5,0.2", "--divide", "even", "--encode", "small"}).status, 0);
+  EXPECT_LT(8 * std::filesystem::file_size(out_), fast);
+  EXPECT_EQ(triangles({}), full);
+  EXPECT_NEAR(static_cast<double>(triangles({"--level", "1"})), static_cast<double>(half),
+              0.1 * double(full));
+  EXPECT_NEAR(static_cast<double>(triangles({"--level", "2"})), static_cast<double>(fifth),
+              0.1 * double(full));
+  const Outcome sound = run_process({"treedump", out_, "--verify"});
+  EXPECT_EQ(sound.status, 0) << sound.err;
+  const std::string volumes = folder_.file("volumes.stree");
+  const Outcome fitted =
+      run_process({"bvfit", out_, "-o", volumes, "--per", "groups", "--volumes", "sphere", "-q"});
+  EXPECT_EQ(fitted.status, 0) << fitted.err;
+  const Outcome held = run_process({"treedump", volumes, "--verify"});
+  EXPECT_EQ(held.status, 0) << held.err;
+  // Volumes were fitted to the tree as it is packed, so they stay when levels are baked again.
+  out_ = folder_.file("again.stree");
+  const Outcome again =
+      run_process({"lodbake", volumes, "-o", out_, "--encode", "small", "--divide", "even"});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(again.err, "");
+  EXPECT_TRUE(TreeFile::open(out_)->container().find("VSET") != nullptr);
+}
+
+TEST_F(Lodbake, WarnsThatVolumesAreOfTheTreeBeforeItWasPacked) {
+  const std::string volumes = folder_.file("volumes.stree");
+  ASSERT_EQ(
+      run_process({"bvfit", tree_, "-o", volumes, "--per", "groups", "--volumes", "sphere", "-q"}).status, 0);
+  const Outcome o = run_process({"lodbake", volumes, "-o", out_, "--encode", "small", "--divide", "even"});
+  EXPECT_EQ(o.status, 0);
+  EXPECT_NE(o.err.find("VSET"), std::string::npos) << o.err;
+  EXPECT_TRUE(TreeFile::open(out_)->container().find("VSET") == nullptr);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "tools/lodbake/packing.h"
 
+#include "lib/formats/spectrum_leaves.h"
+
 #include <string>
 #include <vector>
 
@@ -25,6 +27,17 @@ Result<std::optional<PackedTree>> pack_base(const Options& options, const TreeFi
   }
   tree = packed->tree;
   return std::move(*packed);
+}
+
+Result<void> number_leaves(const Spectrum& leaves, std::optional<PackedTree>& packed, Tree& tree) {
+  if (!packed || leaves.method != LodMethod::collapse || leaves.elements.empty()) return {};
+  const std::vector<std::uint32_t> order = spectrum_leaves::leaf_order(leaves, tree);
+  if (order.empty()) return {};
+  auto again = renumbered(*packed, order);
+  if (!again) return std::unexpected(again.error());
+  packed = std::move(*again);
+  tree = packed->tree;
+  return {};
 }
 
 Result<void> write_base(const Options& options, const TreeFile& file, const std::optional<PackedTree>& packed,

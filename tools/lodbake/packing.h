@@ -16,6 +16,10 @@ namespace copse::lodbake {
 Result<std::optional<PackedTree>> pack_base(const Options& options, const TreeFile& file, Tree& tree,
                                             Context& context);
 
+// The packed tree with its leaves numbered as their spectrum takes them away, so that the spectrum needs no
+// numbers; `tree` becomes that. Nothing happens where nothing is packed, or leaves do not collapse.
+Result<void> number_leaves(const Spectrum& leaves, std::optional<PackedTree>& packed, Tree& tree);
+
 // Puts the packed tree in place of the file's own sections, and leaves out what was measured on the tree as
 // it was: bounding volumes, foliage cells. With --encode small, what could not be packed is compressed.
 Result<void> write_base(const Options& options, const TreeFile& file, const std::optional<PackedTree>& packed,

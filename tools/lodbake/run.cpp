@@ -129,14 +129,13 @@ Result<void> write_without_levels(const Options& options, const TreeFile& file,
   return context.write(options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
-Result<void> write(const Options& options, const TreeFile& file, const std::optional<PackedTree>& packed,
+Result<void> write(const Options& options, const TreeFile& file, const Tree& tree,
+                   const std::optional<PackedTree>& packed, const LodSpectra& stored,
                    const BakedSpectra& baked, Context& context) {
   Stage stage = context.stage("write");
   ContainerWriter writer(file.container());
   if (auto done = write_base(options, file, packed, writer, context); !done) return done;
-  // Without --continuous the file has what the discrete levels need and no more.
-  const LodSpectra few = options.continuous ? LodSpectra{} : discrete_spectra(baked.spectra);
-  const auto errors = put_spectra(writer, options.continuous ? baked.spectra : few, options.coding);
+  const auto errors = put_spectra(writer, stored, options.coding, &tree);
   if (!errors) return std::unexpected(errors.error());
   for (const char* cells : {"FCEL", "FORD", "FVWS", "FVTR", "FVIS", "FPAR"}) writer.remove(cells);
   if (baked.cells) {
@@ -167,7 +166,7 @@ Result<void> run(const Options& options, Context& context) {
   if (auto right = check_output(options, *file); !right) return right;
   auto tree = load(*file, context);
   if (!tree) return std::unexpected(tree.error());
-  const auto packed = pack_base(options, *file, *tree, context);
+  auto packed = pack_base(options, *file, *tree, context);
   if (!packed) return std::unexpected(packed.error());
   const std::uint64_t triangles = tree->trunk.triangles.size() + tree->leaves.triangles.size();
   if (options.threshold > 0 && triangles <= options.threshold) {
@@ -206,7 +205,10 @@ Result<void> run(const Options& options, Context& context) {
     context.report().tables.push_back(column_meanings(context.report().tables));
   }
   if (auto within = check_errors(options, *spectra); !within) return within;
-  return write(options, *file, *packed, *baked, context);
+  // Without --continuous the file has what the discrete levels need and no more.
+  const LodSpectra stored = options.continuous ? *spectra : discrete_spectra(*spectra);
+  if (auto done = number_leaves(stored.leaves, *packed, *tree); !done) return done;
+  return write(options, *file, *tree, *packed, stored, *baked, context);
 }
 
 }  // namespace copse::lodbake

@@ -3,7 +3,7 @@
 // never an index list.
 #pragma once
 
-#include "lib/analysis/lod/part_triangles.h"
+#include "lib/formats/part_triangles.h"
 #include "lib/formats/spectrum.h"
 
 #include <cstdint>

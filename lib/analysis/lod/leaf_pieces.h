@@ -1,7 +1,7 @@
 // leaf_pieces: the leaves of a tree cut into what is connected: cards, triangles, fronds.
 #pragma once
 
-#include "lib/analysis/lod/part_triangles.h"
+#include "lib/formats/part_triangles.h"
 #include "lib/formats/tree.h"
 
 #include <array>

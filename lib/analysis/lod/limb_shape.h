@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lib/analysis/lod/limb_chains.h"
-#include "lib/analysis/lod/part_triangles.h"
+#include "lib/formats/part_triangles.h"
 #include "lib/analysis/lod/spectrum_builder.h"
 #include "lib/formats/tree.h"
 
