@@ -24,6 +24,7 @@ using Face = std::array<std::uint32_t, 3>;
 constexpr double k_prior = 20;      // pixels that the field's word on a leaf is worth
 constexpr double k_good = 0.1;      // pixels of change in all views: no better successor is looked for
 constexpr double k_layers = 7;      // of leaves, behind which nothing is seen whichever way it lies
+constexpr double k_hidden = 0.05;   // of a leaf: if no more is seen, it may be anywhere
 constexpr double k_margin = 0.012;  // of the crown's width, out of its hull
 
 int cells_for(std::size_t triangles) {
@@ -108,7 +109,8 @@ class Collapse {
     std::uint32_t element = k_none;  // of the spectrum, while it has one of its own
     Patch patch;
     Drawn drawn;
-    bool core = false;  // took the area of leaves from everywhere
+    double displacement = 0;  // metres, of what it stands for
+    bool core = false;        // took the area of leaves from everywhere
   };
   struct Merge {
     std::vector<std::uint32_t> members;  // places in alive_: the host first
@@ -140,6 +142,7 @@ class Collapse {
               .element = k_none,
               .patch = {},
               .drawn = {},
+              .displacement = 0,
               .core = false};
     std::vector<std::uint32_t> used;
     for (const std::uint32_t t : triangles) {
@@ -215,6 +218,7 @@ class Collapse {
     const std::vector<LeafViews::Count> counts = views_->look(viewed(alive_));
     weigh(views_->coverage());
     std::vector<MatchLeaf> leaves;
+    seen_.clear();
     for (std::size_t i = 0; i < alive_.size(); ++i) {
       const Node& n = nodes_[alive_[i]];
       const Patch& p = n.patch;
@@ -224,6 +228,7 @@ class Collapse {
       leaves.push_back({n.drawn.centre(), facing(p), p.area, covered,
                         covered * sure * (counts[i].sole + k_prior * open),
                         covered * sure * (0.5 * counts[i].seen + k_prior * seen), n.group});
+      seen_.push_back(std::min(leaves.back().seen / covered, 1.0));
     }
     weights_.room = room(counts);
     // Of very many leaves more at a time: each of them matters less.
@@ -313,7 +318,7 @@ class Collapse {
     const Node& like = out.successor.like == k_none ? *look : nodes_[alive_[out.successor.like]];
     if (!good && sum.area > 6 * mean_area_) search(out.successor, like, area, exchange);
     out.fits = out.successor.drawn.area() > 0.99 * area;
-    out.successor.displacement = displaced(out.members, sum, out.successor.drawn);
+    out.successor.displacement = displaced(out.members, out.successor);
     out.price = out.successor.cost / std::max(triangles - double(out.successor.drawn.faces.size()), 0.5);
     return out;
   }
@@ -443,26 +448,21 @@ class Collapse {
     return out;
   }
 
-  // How far the leaves are from what is drawn for them, root mean square: how much farther from its centre
-  // than it is large. What gives its area to a core leaves a hole of its own size, where no one sees it.
-  double displaced(std::span<const std::uint32_t> members, const Patch& patch, const Drawn& drawn) const {
-    double hole = 0;
-    bool core = members.size() > weights_.guests + 1;
+  // How far what is seen of the leaves is from what is drawn for them: of one that is not seen, nothing but
+  // the hole of its own size counts. Adds up from merge to merge.
+  double displaced(std::span<const std::uint32_t> members, const Successor& successor) const {
+    double worst = 0;
     for (const std::uint32_t m : members) {
       const Node& n = nodes_[alive_[m]];
-      core = core || n.core;
-      if (!n.core) hole = std::max(hole, n.patch.covariance().trace());
+      if (m == successor.like) {
+        worst = std::max(worst, n.displacement);
+        continue;
+      }
+      if (seen_[m] < k_hidden) continue;
+      const double moved = n.displacement + distance(n.drawn.centre(), successor.drawn.centre());
+      worst = std::max({worst, std::sqrt(seen_[m]) * moved, 0.5 * std::sqrt(n.drawn.area())});
     }
-    if (core) return std::sqrt(hole);
-    Patch own;
-    for (const ViewedTriangle& t : drawn.viewed) {
-      std::array<Double3, 3> corners = t.corners;
-      for (Double3& c : corners) c -= offset_;
-      own += patch_of(corners, 1, 1);
-    }
-    const Double3 moved = own.centre() - patch.centre();
-    return std::sqrt(
-        std::max(dot(moved, moved) + patch.covariance().trace() - own.covariance().trace(), 0.0));
+    return worst;
   }
 
   // One leaf after the other joins the first, which grows toward what it is to be in the end.
@@ -480,6 +480,7 @@ class Collapse {
       for (std::size_t i = 0; i < gone.size(); ++i)
         if (merge.members[i] == merge.successor.like) look = gone[i];
     Node node = nodes_[look];
+    node.displacement = merge.successor.displacement;
     node.core = merge.core || nodes_[gone.front()].core;
     node.patch = {}, node.radius = nodes_[gone.front()].radius, node.group = nodes_[gone.front()].group;
     for (const std::uint32_t n : gone) {
@@ -531,6 +532,7 @@ class Collapse {
   std::uint64_t turns_ = 0;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> alive_;
+  std::vector<double> seen_;  // of each alive leaf the share that is seen
   std::vector<std::uint32_t> first_node_, piece_element_;
 };
 

@@ -30,8 +30,9 @@ struct LeafCollapseOptions {
 // leaves that it stands for (or a triangle, where the leaves are triangles). `looks`: the masks of the
 // materials' textures; without them leaves with alpha are taken as opaque. What stands for leaves of several
 // twigs hangs on the lowest radius that bears them all. The sum of areas stays the same as long as it fits
-// (`largest`). A step's error: the largest displacement of a leaf so far, root mean square, metres. Steps
-// come in the order of what they change in the picture, as far as can be. Deterministic. O(n log n) and 12
+// (`largest`). A step's error, metres: how far what is seen of
+// a leaf is from what stands for it, as estimated, the largest so far. Steps come in the order of what they
+// change in the picture, as far as can be. Deterministic. O(n log n) and 12
 // pictures a round; rounds: log(n) / log(1 / (1 - round)).
 Spectrum collapse_spectrum(const Tree& tree, const Looks& looks = {},
                            const LeafCollapseOptions& options = {});
