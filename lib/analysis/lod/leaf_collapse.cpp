@@ -24,7 +24,7 @@ using Face = std::array<std::uint32_t, 3>;
 constexpr double k_prior = 20;      // pixels that the field's word on a leaf is worth
 constexpr double k_good = 0.1;      // pixels of change in all views: no better successor is looked for
 constexpr double k_layers = 7;      // of leaves, behind which nothing is seen whichever way it lies
-constexpr double k_hidden = 0.05;   // of a leaf: if no more is seen, it may be anywhere
+constexpr double k_hidden = 0.02;   // of a leaf: if it covers no more alone, it may be anywhere
 constexpr double k_margin = 0.012;  // of the crown's width, out of its hull
 
 int cells_for(std::size_t triangles) {
@@ -218,7 +218,7 @@ class Collapse {
     const std::vector<LeafViews::Count> counts = views_->look(viewed(alive_));
     weigh(views_->coverage());
     std::vector<MatchLeaf> leaves;
-    seen_.clear();
+    alone_.clear();
     for (std::size_t i = 0; i < alive_.size(); ++i) {
       const Node& n = nodes_[alive_[i]];
       const Patch& p = n.patch;
@@ -228,7 +228,7 @@ class Collapse {
       leaves.push_back({n.drawn.centre(), facing(p), p.area, covered,
                         covered * sure * (counts[i].sole + k_prior * open),
                         covered * sure * (0.5 * counts[i].seen + k_prior * seen), n.group});
-      seen_.push_back(std::min(leaves.back().seen / covered, 1.0));
+      alone_.push_back(std::min(leaves.back().sole / covered, 1.0));
     }
     weights_.room = room(counts);
     // Of very many leaves more at a time: each of them matters less.
@@ -448,8 +448,8 @@ class Collapse {
     return out;
   }
 
-  // How far what is seen of the leaves is from what is drawn for them: of one that is not seen, nothing but
-  // the hole of its own size counts. Adds up from merge to merge.
+  // How far the ground that only these leaves cover is from what is drawn for them: what others cover too
+  // leaves no hole. No less than half of the size of a leaf that goes. Adds up from merge to merge.
   double displaced(std::span<const std::uint32_t> members, const Successor& successor) const {
     double worst = 0;
     for (const std::uint32_t m : members) {
@@ -458,9 +458,9 @@ class Collapse {
         worst = std::max(worst, n.displacement);
         continue;
       }
-      if (seen_[m] < k_hidden) continue;
+      if (alone_[m] < k_hidden) continue;
       const double moved = n.displacement + distance(n.drawn.centre(), successor.drawn.centre());
-      worst = std::max({worst, std::sqrt(seen_[m]) * moved, 0.5 * std::sqrt(n.drawn.area())});
+      worst = std::max({worst, std::sqrt(alone_[m]) * moved, 0.5 * std::sqrt(n.drawn.area())});
     }
     return worst;
   }
@@ -532,7 +532,7 @@ class Collapse {
   std::uint64_t turns_ = 0;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> alive_;
-  std::vector<double> seen_;  // of each alive leaf the share that is seen
+  std::vector<double> alone_;  // of each alive leaf the share that no other covers
   std::vector<std::uint32_t> first_node_, piece_element_;
 };
 

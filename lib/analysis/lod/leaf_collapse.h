@@ -30,10 +30,10 @@ struct LeafCollapseOptions {
 // leaves that it stands for (or a triangle, where the leaves are triangles). `looks`: the masks of the
 // materials' textures; without them leaves with alpha are taken as opaque. What stands for leaves of several
 // twigs hangs on the lowest radius that bears them all. The sum of areas stays the same as long as it fits
-// (`largest`). A step's error, metres: how far what is seen of
-// a leaf is from what stands for it, as estimated, the largest so far. Steps come in the order of what they
-// change in the picture, as far as can be. Deterministic. O(n log n) and 12
-// pictures a round; rounds: log(n) / log(1 / (1 - round)).
+// (`largest`). A step's error, metres: how far ground that
+// only one leaf covers is from what stands for that leaf, as estimated, the largest so far. Steps come in the
+// order of what they change in the picture, as far as can be. Deterministic. O(n log n) and 12 pictures a
+// round; rounds: log(n) / log(1 / (1 - round)).
 Spectrum collapse_spectrum(const Tree& tree, const Looks& looks = {},
                            const LeafCollapseOptions& options = {});
 
