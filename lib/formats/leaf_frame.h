@@ -60,7 +60,7 @@ inline LeafFrame leaf_frame(const Double3& edge, bool half, double t) {
 // A power of two: so many turns a quarter that the farthest corner is within a quarter of a step.
 inline double turn_units(const Double3& edge) {
   double units = 16;
-  while (units < 4 * length(edge) && units < 1e6) units *= 2;
+  while (units < 2 * length(edge) && units < 1e6) units *= 2;
   return units;
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t k_top = 1u << 24;
 constexpr int k_tail = 4;  // bytes of the code that the decoder reads ahead
-constexpr int k_fast_rate = 4, k_slow_rate = 7;
+constexpr int k_fast_rate = 5, k_slow_rate = 7;
 
 std::uint32_t zero_share(const BitModel& m) {
   return std::clamp((std::uint32_t{m.fast} + m.slow) >> 1, 64u, 65536u - 64u);

@@ -548,7 +548,7 @@ std::optional<EncodedSpectrum> encode(const Spectrum& spectrum, const Tree& tree
   double uv = 1;
   for (const SpectrumVertex& v : spectrum.vertices)
     uv = std::max({uv, std::abs(double{v.texcoord.x}), std::abs(double{v.texcoord.y})});
-  plan.position = std::clamp(exponent_of(std::max({e.x, e.y, e.z}), options.position_bits), -120, 100);
+  plan.position = std::clamp(exponent_of(std::max({e.x, e.y, e.z}), options.position_bits - 1), -120, 100);
   plan.texcoord = exponent_of(std::min(uv, 4.0), options.texcoord_bits);
   RangeCoder coder;
   if (!std::make_unique<Coder>(coder, plan, tree, part)->run().empty()) return std::nullopt;
