@@ -50,9 +50,9 @@ class TreeFile {
 
   const TreeHeader& header() const;
   const std::vector<SectionInfo>& sections() const;  // as stored: PACK stands for those that it packs
-  const TreeCounts& counts() const;                 // of elements, present or left out by choice
-  const std::vector<std::string>& omitted() const;  // what the writer left out on purpose
-  const std::vector<Omitted>& omissions() const;    // the same, with the bytes that it saved
+  const TreeCounts& counts() const;                  // of elements, present or left out by choice
+  const std::vector<std::string>& omitted() const;   // what the writer left out on purpose
+  const std::vector<Omitted>& omissions() const;     // the same, with the bytes that it saved
   bool has(std::string_view section) const;
   std::uint64_t size() const;  // bytes of the file
 

@@ -129,11 +129,13 @@ TEST(TreePack, LeavesComeInTheOrderThatIsAskedFor) {
   auto after = renumbered(before, order);
   ASSERT_TRUE(after.has_value());
   const PackedTree& p = *after;
-  std::vector<Float3> vertices = p.tree.leaves.vertices.to_vector(), same_vertices = before.tree.leaves.vertices.to_vector();
+  std::vector<Float3> vertices = p.tree.leaves.vertices.to_vector(),
+                      same_vertices = before.tree.leaves.vertices.to_vector();
   const auto less = [](const Float3& a, const Float3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
   };
-  std::sort(vertices.begin(), vertices.end(), less), std::sort(same_vertices.begin(), same_vertices.end(), less);
+  std::sort(vertices.begin(), vertices.end(), less),
+      std::sort(same_vertices.begin(), same_vertices.end(), less);
   EXPECT_EQ(vertices, same_vertices);
   for (std::uint32_t i = 0; i < 12; ++i)
     EXPECT_LT(distance(to_double(p.tree.leaves.centres[i]), to_double(tree.leaves.centres[11 - i])), 1e-3);

@@ -1,9 +1,9 @@
 #include "lib/analysis/lod/trunk_radii.h"
 
 #include "lib/analysis/lod/limb_chains.h"
-#include "lib/formats/part_triangles.h"
 #include "lib/analysis/measure/raster.h"
 #include "lib/formats/level_mesh.h"
+#include "lib/formats/part_triangles.h"
 #include "tests/lod/tube_tree.h"
 
 #include <filesystem>

@@ -26,7 +26,7 @@ struct Options {
   bool continuous = false;
   std::uint64_t min_triangles = 0;
   std::uint64_t threshold = 0;  // trees with no more triangles get no levels
-  double hysteresis = 10;  // percent
+  double hysteresis = 10;       // percent
   TrunkMethod trunk = TrunkMethod::radii;
   RemovalOrder removal = RemovalOrder::silhouette;
   FoliageMethod foliage = FoliageMethod::collapse;

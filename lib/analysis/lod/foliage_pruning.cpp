@@ -2,9 +2,9 @@
 
 #include "lib/analysis/lod/cell_visibility.h"
 #include "lib/analysis/lod/foliage_cells_tree.h"
-#include "lib/formats/part_triangles.h"
 #include "lib/analysis/lod/radius_ancestors.h"
 #include "lib/analysis/lod/spectrum_builder.h"
+#include "lib/formats/part_triangles.h"
 #include "lib/formats/random.h"
 
 #include <algorithm>

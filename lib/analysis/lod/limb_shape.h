@@ -3,8 +3,8 @@
 #pragma once
 
 #include "lib/analysis/lod/limb_chains.h"
-#include "lib/formats/part_triangles.h"
 #include "lib/analysis/lod/spectrum_builder.h"
+#include "lib/formats/part_triangles.h"
 #include "lib/formats/tree.h"
 
 #include <array>
