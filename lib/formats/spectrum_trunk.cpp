@@ -30,7 +30,6 @@ constexpr int k_dropped = 13;  // bits of an error
 struct Pattern {
   std::vector<Face> faces;
   std::vector<std::uint8_t> at_child;
-  friend bool operator==(const Pattern&, const Pattern&) = default;
 
   // For each vertex, its place in the list of its end; for one at the child's end, the vertex at the other
   // end that it hangs on by an edge, the last of them.
