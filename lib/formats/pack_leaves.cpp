@@ -199,7 +199,8 @@ class LeafCoder {
       std::size_t kind = v == 0 ? (is_first ? 0 : 1) : x.framed ? 2 : 3;
       const Grid3 expected = v == 0 ? last_ : expected_vertex(x, p, v, kind);
       for (std::size_t a = 0; a < 3; ++a)
-        x.vertices[v][a] = expected[a] + c_.signed_number(vertex_[kind][a], x.vertices[v][a] - expected[a]);
+        x.vertices[v][a] =
+            grid_offset(expected[a] + c_.signed_number(vertex_[kind][a], x.vertices[v][a] - expected[a]));
     }
     if (n > 0) last_ = x.vertices[0];
     if (!x.framed) return;

@@ -160,7 +160,7 @@ class TrunkCoder {
       }
       const std::size_t kind = alike ? (j == 0 ? 0 : 1) : j == 0 ? 2 : j == 1 ? 3 : 4;
       for (std::size_t a = 0; a < 3; ++a)
-        v[a] = expected[a] + c_.signed_number(vector_[kind][a], v[a] - expected[a]);
+        v[a] = grid_offset(expected[a] + c_.signed_number(vector_[kind][a], v[a] - expected[a]));
       sum += length(real(v));
     }
     const std::int64_t mean = x.vectors == 0 ? 0 : std::llround(8 * sum / x.vectors);

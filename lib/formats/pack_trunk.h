@@ -9,6 +9,7 @@
 #include "lib/formats/tree.h"
 #include "lib/formats/tree_header.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -21,6 +22,12 @@ using Grid2 = std::array<std::int64_t, 2>;
 
 // No coordinate is larger: sums of two are exact in float32.
 inline constexpr std::int64_t k_grid_limit = std::int64_t{1} << 22;
+
+// Offsets within the grid are below twice its limit. Forged ones are cut before the next is foretold from
+// them.
+inline std::int64_t grid_offset(std::int64_t x) {
+  return std::clamp(x, -4 * k_grid_limit, 4 * k_grid_limit);
+}
 
 // Powers of two: a stored coordinate is a whole number times this, exactly.
 struct PackGrid {

@@ -104,7 +104,8 @@ std::int64_t RangeCoder::signed_number(SignedModel& model, std::int64_t value) {
   bool negative = false;
   if (size != 0) negative = bit(model.sign[static_cast<std::size_t>(model.before)], value < 0);
   model.before = size == 0 ? 0 : negative ? 1 : 2;
-  const auto out = static_cast<std::int64_t>(size);
+  if (decoding_ && size > k_most_signed) failed_ = true;
+  const auto out = static_cast<std::int64_t>(std::min(size, k_most_signed));
   return negative ? -out : out;
 }
 

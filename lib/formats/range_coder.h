@@ -40,6 +40,8 @@ struct SignedModel {
   int before = 0;
 };
 
+inline constexpr std::uint64_t k_most_signed = std::uint64_t{1} << 36;
+
 class RangeCoder {
  public:
   RangeCoder() : decoding_(false) {}
@@ -48,6 +50,7 @@ class RangeCoder {
   bool decoding() const { return decoding_; }
   bool bit(BitModel& model, bool value = false);
   std::uint64_t number(NumberModel& model, std::uint64_t value = 0);
+  // Magnitudes up to k_most_signed: sums of what is read cannot overflow.
   std::int64_t signed_number(SignedModel& model, std::int64_t value = 0);
   // `count` bits, 0 to 32, none of them more likely than the other.
   std::uint32_t plain(int count, std::uint32_t value = 0);
