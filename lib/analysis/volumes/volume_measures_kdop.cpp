@@ -1,7 +1,8 @@
-// The polyhedron of a k-DOP: each plane's facet is a large square cut by all other planes.
+// The polyhedron of a k-DOP: each plane's facet is a square cut by all other planes.
 #include "lib/analysis/volumes/frame.h"
 #include "lib/analysis/volumes/volume_measures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -30,8 +31,12 @@ std::vector<HalfSpace> half_spaces(const Kdop<double>& v, const Double3& centre)
   return planes;
 }
 
-// A point near the body: where the middles of the slabs meet in the mean (least squares).
-Double3 middle_of(const Kdop<double>& v) {
+struct Reach {
+  Double3 middle;     // where the middles of the slabs meet in the mean (least squares)
+  double radius = 0;  // no point of the body is farther from there; 0: it is that point; infinite: unbounded
+};
+
+Reach reach_of(const Kdop<double>& v) {
   Axes m{};
   Double3 right;
   for (std::size_t i = 0; i < v.normals.size(); ++i) {
@@ -41,8 +46,13 @@ Double3 middle_of(const Kdop<double>& v) {
     right += n * ((v.min[i] + v.max[i]) / 2 / l);
   }
   const double det = dot(m[0], cross(m[1], m[2]));
-  if (!(std::abs(det) > 1e-12)) return {};
-  return (cross(m[1], m[2]) * right.x + cross(m[2], m[0]) * right.y + cross(m[0], m[1]) * right.z) / det;
+  if (!(std::abs(det) > 1e-12)) return {{}, std::numeric_limits<double>::infinity()};
+  Reach r;
+  r.middle = (cross(m[1], m[2]) * right.x + cross(m[2], m[0]) * right.y + cross(m[0], m[1]) * right.z) / det;
+  // m p is the sum of the normals times the distances along them; its least eigenvalue is at least this.
+  const double half_trace = (m[0].x + m[1].y + m[2].z) / 2, stretch = det / (half_trace * half_trace);
+  for (const HalfSpace& p : half_spaces(v, r.middle)) r.radius += std::abs(p.offset) / stretch;
+  return r;
 }
 
 void cut(std::vector<Corner>& facet, const HalfSpace& plane, std::size_t index, std::vector<Corner>& out) {
@@ -61,7 +71,7 @@ void cut(std::vector<Corner>& facet, const HalfSpace& plane, std::size_t index, 
   facet.swap(out);
 }
 
-// Cutting a large square loses digits: each corner again, from the three planes that meet in it.
+// Cutting a square loses digits: each corner again, from the three planes that meet in it.
 void sharpen(std::vector<Corner>& facet, const HalfSpace& own, const std::vector<HalfSpace>& planes) {
   for (std::size_t k = 0; k < facet.size(); ++k) {
     const std::size_t next = facet[k].plane, last = facet[(k + facet.size() - 1) % facet.size()].plane;
@@ -76,41 +86,84 @@ void sharpen(std::vector<Corner>& facet, const HalfSpace& own, const std::vector
   }
 }
 
+// The facet of one plane: a square wider than the body, cut by all other planes.
+void facet_of(const std::vector<HalfSpace>& planes, std::size_t i, double radius, std::vector<Corner>& facet,
+              std::vector<Corner>& spare) {
+  const double far = 2 * radius;  // more than the whiskers of mean_width_of
+  const Double3 n = planes[i].normal, u = any_normal(n), w = cross(n, u), at = n * planes[i].offset;
+  const std::size_t none = planes.size();
+  facet = {{at + (u + w) * far, none},
+           {at + (w - u) * far, none},
+           {at - (u + w) * far, none},
+           {at + (u - w) * far, none}};
+  for (std::size_t j = 0; j < planes.size() && !facet.empty(); ++j) {
+    if (j / 2 != i / 2) cut(facet, planes[j], j, spare);  // the slab's other side is parallel
+  }
+  sharpen(facet, planes[i], planes);
+}
+
+// The sum of each edge's length times the angle of its facets, / 4 pi. A plane that only touches an edge or a
+// corner would get edges of its own from rounding, so each plane is first moved outward by its own whisker:
+// then no four meet in a point.
+double mean_width_of(std::vector<HalfSpace> planes, double radius, double size) {
+  constexpr double k_whisker = 1e-11, k_golden = 0.6180339887498949;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const double turns = k_golden * static_cast<double>(i + 1);
+    planes[i].offset += k_whisker * size * (1 + turns - std::floor(turns));
+  }
+  std::vector<Corner> facet, spare;
+  double width = 0;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    facet_of(planes, i, radius, facet, spare);
+    for (std::size_t k = 0; k < facet.size(); ++k) {
+      if (facet[k].plane >= planes.size()) return std::numeric_limits<double>::infinity();
+      const Double3 &n = planes[i].normal, &other = planes[facet[k].plane].normal;
+      const double angle = std::atan2(length(cross(n, other)), dot(n, other));
+      // Each edge is met from both of its facets.
+      width += distance(facet[k].at, facet[(k + 1) % facet.size()].at) * angle / (8 * std::numbers::pi);
+    }
+  }
+  return width;
+}
+
+// Of the box along the axes of the world, as far as there are slabs along them.
+double box_volume(const Kdop<double>& v) {
+  double volume = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    double thick = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < v.normals.size(); ++i) {
+      const double l = length(v.normals[i]);
+      if (std::abs(v.normals[i][axis]) == l) thick = std::min(thick, (v.max[i] - v.min[i]) / l);
+    }
+    if (thick <= 0) return 0;
+    volume *= thick;
+  }
+  return volume;
+}
+
 }  // namespace
 
 VolumeMeasures measures_of(const Kdop<double>& v) {
   constexpr double k_infinite = std::numeric_limits<double>::infinity();
-  const std::vector<HalfSpace> planes = half_spaces(v, middle_of(v));
-  double reach = 0;
-  for (const HalfSpace& p : planes) reach = std::max(reach, std::abs(p.offset));
-  const double far = reach > 0 ? 1e6 * reach : 1;
+  const Reach reach = reach_of(v);
+  if (reach.radius == 0) return {};
+  if (!std::isfinite(reach.radius)) return {k_infinite, k_infinite, k_infinite};
+  const std::vector<HalfSpace> planes = half_spaces(v, reach.middle);
   VolumeMeasures m;
+  double size = 0;  // as far out as a corner lies
   std::vector<Corner> facet, spare;
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    const Double3 n = planes[i].normal, u = any_normal(n), w = cross(n, u), at = n * planes[i].offset;
-    const std::size_t none = planes.size();
-    facet = {{at + (u + w) * far, none},
-             {at + (w - u) * far, none},
-             {at - (u + w) * far, none},
-             {at + (u - w) * far, none}};
-    for (std::size_t j = 0; j < planes.size() && !facet.empty(); ++j) {
-      if (j != i) cut(facet, planes[j], j, spare);
-    }
-    sharpen(facet, planes[i], planes);
+    facet_of(planes, i, reach.radius, facet, spare);
+    for (const Corner& c : facet) size = std::max(size, length(c.at));
     Double3 twice;
-    for (std::size_t k = 0; k < facet.size(); ++k) {
-      const Corner &a = facet[k], &b = facet[(k + 1) % facet.size()];
-      if (a.plane == none) return {k_infinite, k_infinite, k_infinite};
-      twice += cross(a.at - facet[0].at, b.at - facet[0].at);
-      const Double3& other = planes[a.plane].normal;
-      // Each edge is met from both of its facets, and the mean width is the sum of length times angle / 4 pi.
-      const double angle = std::atan2(length(cross(n, other)), dot(n, other));
-      m.mean_width += distance(a.at, b.at) * angle / (8 * std::numbers::pi);
-    }
-    const double area = dot(twice, n) / 2;
+    for (std::size_t k = 0; k < facet.size(); ++k)
+      twice += cross(facet[k].at - facet[0].at, facet[(k + 1) % facet.size()].at - facet[0].at);
+    const double area = std::max(0.0, dot(twice, planes[i].normal) / 2);
     m.surface += area;
     m.volume += area * planes[i].offset / 3;
   }
+  m.volume = std::clamp(m.volume, 0.0, box_volume(v));
+  m.mean_width = mean_width_of(planes, reach.radius, size > 0 ? size : reach.radius);
   return m;
 }
 
