@@ -47,6 +47,13 @@ TEST(Choose, WhatIsFlatButForRoundingHasNoVolume) {
             1u);
 }
 
+TEST(Choose, WhatIsThinButNotFlatIsChosenByItsVolume) {
+  // A lath 1 long and 5e-5 thick.
+  EXPECT_EQ(chosen({{VolumeKind::obb, {2.5e-9, 2e-4, 0.5}}, {VolumeKind::capsule, {2e-7, 1.6e-3, 0.5}}},
+                   Criterion::volume),
+            0u);
+}
+
 TEST(Choose, WeightsMakeACheapTestWinOverASmallGain) {
   const std::vector<Candidate> c{{VolumeKind::sphere, {3, 1, 1}}, {VolumeKind::lozenge, {2, 1, 1}}};
   EXPECT_EQ(chosen(c, Criterion::volume), 1u);

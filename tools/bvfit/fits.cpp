@@ -139,15 +139,13 @@ std::size_t choose_volume(const SetFit& fit, const Choosing& choosing) {
 
 std::string unproven_text(std::span<const SetFit> fits) {
   constexpr double k_rounding = 1e-4;  // of the gap: what is stored is rounded outward
-  constexpr double k_flat = 1e-6;      // of the cube of the size, as in choosing
   std::size_t searched = 0, unproven = 0;
   double worst = 0;
   std::string of;
   for (const SetFit& fit : fits) {
     for (const FittedVolume& v : fit.volumes) {
       const double wanted = exact_gap(v.method.kind), volume = v.measures.volume;
-      if (!v.method.least || !std::isfinite(wanted) || volume <= k_flat * fit.size * fit.size * fit.size)
-        continue;
+      if (!v.method.least || !std::isfinite(wanted) || is_flat(v.measures, fit.size)) continue;
       ++searched;
       const double gap =
           v.lower_bound > 0 ? volume / v.lower_bound - 1 : std::numeric_limits<double>::infinity();
@@ -155,8 +153,10 @@ std::string unproven_text(std::span<const SetFit> fits) {
       ++unproven;
       if (gap / wanted <= worst) continue;
       worst = gap / wanted;
-      of = fmt::format("{} ({}) of '{}', {:.3g} % over its bound instead of {:.3g} %", name_of(v.method.kind),
-                       v.method.name, fit.name, 100 * gap, 100 * wanted);
+      const std::string over =
+          std::isfinite(gap) ? fmt::format("{:.3g} % over its bound", 100 * gap) : "without a bound";
+      of = fmt::format("{} ({}) of '{}', {} instead of {:.3g} %", name_of(v.method.kind), v.method.name,
+                       fit.name, over, 100 * wanted);
     }
   }
   if (unproven == 0) return "";

@@ -8,17 +8,18 @@ namespace copse {
 namespace {
 
 constexpr double k_same = 1e-6;
-
-// Volume and cost that compare as they should: what is flat has no volume, whatever rounding left of it.
-double snapped(double volume, double size) {
-  return volume <= k_same * size * size * size ? 0 : volume;
-}
+// Of the size: as thick is what outward rounding to float32 makes of a flat thing that is tilted.
+constexpr double k_flat = 8 * 0x1p-23;
 
 double ratio(double value, double least) {
   return least > 0 ? value / least : 1;
 }
 
 }  // namespace
+
+bool is_flat(const VolumeMeasures& m, double size) {
+  return 2 * m.volume <= k_flat * size * m.surface;
+}
 
 TestCosts table_costs() {
   constexpr double k_add = 1, k_mul = 1.4, k_root = 5.5, k_planes = 3.5;
@@ -49,7 +50,7 @@ std::size_t choose(std::span<const Candidate> candidates, Criterion criterion, c
     surface = std::min(surface, c.measures.surface), width = std::min(width, c.measures.mean_width);
   }
   const auto value = [&](const Candidate& c) {
-    const double volume = snapped(c.measures.volume, size), cost = costs.of(c);
+    const double volume = is_flat(c.measures, size) ? 0 : c.measures.volume, cost = costs.of(c);
     if (criterion == Criterion::weighted) return volume * cost;
     if (criterion != Criterion::expected) return volume;
     const double needless = expected.rays * (ratio(c.measures.surface, surface) - 1) +

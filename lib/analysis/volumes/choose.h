@@ -45,9 +45,12 @@ struct ExpectedCost {
   double rays = 0.5;    // share of the tests that are rays; the others are planes of a frustum
 };
 
+// Whether a volume round something of this size (its diagonal) has no thickness but what rounding gave it.
+bool is_flat(const VolumeMeasures& measures, double size);
+
 // The index of the choice among at least one candidate; `size` is the diagonal of what they enclose. Volumes
-// within a millionth of one another, or of the cube of the size, are the same: then the cheaper test wins,
-// and then the first. Criterion::aspect chooses as `volume` here.
+// within a millionth of one another are the same, and so are flat ones: then the cheaper test wins, and then
+// the first. Criterion::aspect chooses as `volume` here.
 std::size_t choose(std::span<const Candidate> candidates, Criterion criterion, const TestCosts& costs,
                    const ExpectedCost& expected, double size);
 

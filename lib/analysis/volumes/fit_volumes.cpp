@@ -99,8 +99,8 @@ BoundedFit<Capsule<double>> capsule_of(const Prepared& p, const FitOptions& how)
 }
 // The lozenge starts from the capsule, which no lozenge need be worse than.
 Fit least_lozenge(const Prepared& p, const FitOptions& how) {
-  const Capsule<double> capsule = p.capsule ? *p.capsule : capsule_of(p, {}).volume;
-  return bounded(minimal_lozenge(p.hull, capsule, limits<SweptBoundOptions>(how, k_lozenge_gap)));
+  if (!p.capsule) p.capsule = capsule_of(p, {}).volume;
+  return bounded(minimal_lozenge(p.hull, *p.capsule, limits<SweptBoundOptions>(how, k_lozenge_gap)));
 }
 Fit least_capsule(const Prepared& p, const FitOptions& how) {
   BoundedFit<Capsule<double>> fit = capsule_of(p, how);
@@ -177,6 +177,49 @@ Fit fit_by(const FitMethod& method, const Prepared& p, const FitOptions& how) {
   return entry->fit(p, how);
 }
 
+// A ball or a capsule as the type that is to hold it; none where it is not one of that.
+struct AsCapsule {
+  std::optional<Volume<double>> operator()(const BoundingSphere<double>& v) const {
+    return Capsule<double>{v.centre, v.centre, v.radius};
+  }
+  std::optional<Volume<double>> operator()(const Capsule<double>& v) const { return v; }
+  std::optional<Volume<double>> operator()(const auto&) const { return std::nullopt; }
+};
+struct AsLozenge {
+  std::optional<Volume<double>> operator()(const BoundingSphere<double>& v) const {
+    return Lozenge<double>{v.centre, {}, {}, v.radius};
+  }
+  std::optional<Volume<double>> operator()(const Capsule<double>& v) const {
+    return Lozenge<double>{v.a, v.b - v.a, {}, v.radius};
+  }
+  std::optional<Volume<double>> operator()(const Lozenge<double>& v) const { return v; }
+  std::optional<Volume<double>> operator()(const auto&) const { return std::nullopt; }
+};
+
+std::optional<Volume<double>> as_kind(const Volume<double>& v, VolumeKind own, VolumeKind wanted) {
+  if (wanted == VolumeKind::capsule) return std::visit(AsCapsule{}, v);
+  if (wanted == VolumeKind::lozenge) return std::visit(AsLozenge{}, v);
+  return own == wanted ? std::optional(v) : std::nullopt;
+}
+
+// What a search must not be worse than: the cheaper methods of its kind, and of kinds that are cases of it.
+std::vector<Volume<double>> cheaper_fits(const FitMethod& method, const Prepared& p, const FitOptions& how) {
+  std::vector<Volume<double>> out;
+  if (!method.least || method.kind == VolumeKind::kdop) return out;
+  for (const Entry& e : entries()) {
+    if (e.method == method) break;
+    const bool known = e.method.kind == VolumeKind::capsule && e.method.least && p.capsule.has_value();
+    const bool ball = e.method.kind == VolumeKind::sphere && e.method.least;
+    const bool capsule = e.method.kind == VolumeKind::capsule && (known || !e.method.least);
+    const bool wider = (method.kind == VolumeKind::capsule && ball) ||
+                       (method.kind == VolumeKind::lozenge && (ball || capsule));
+    if (e.method.kind != method.kind && !wider) continue;
+    const Volume<double> v = known ? Volume<double>(*p.capsule) : e.fit(p, how).volume;
+    if (auto as = as_kind(v, e.method.kind, method.kind)) out.push_back(std::move(*as));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::span<const FitMethod> fit_methods() {
@@ -238,14 +281,26 @@ std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const Fit
   const double start = now();
   const Fit fit = fit_by(method, p, options);
   const double fitted = now();
-  auto enclosed = enclose(placed(fit.volume, p.hull.frame), p.points,
-                          p.hull.loss == 0 ? std::span<const Double3>(p.corners) : p.points);
-  if (!enclosed) return std::nullopt;
+  const std::span<const Double3> corners = p.hull.loss == 0 ? std::span<const Double3>(p.corners) : p.points;
   FittedVolume out;
   out.method = method;
-  out.volume = std::move(enclosed->volume);
-  out.certified = enclosed->certified;
-  out.measures = measures_of(to_double(out.volume));
+  bool held = false;
+  const auto keep_if_less = [&](const Volume<double>& fitted_volume) {
+    auto enclosed = enclose(fitted_volume, p.points, corners);
+    if (!enclosed) return;
+    const VolumeMeasures measures = measures_of(to_double(enclosed->volume));
+    if (held && !(enclosed->certified && measures.volume < out.measures.volume)) return;
+    held = true;
+    out.volume = std::move(enclosed->volume), out.certified = enclosed->certified, out.measures = measures;
+  };
+  keep_if_less(placed(fit.volume, p.hull.frame));
+  // Rounding outward can turn the order, most where there is no thickness. Far larger ones need no rounding.
+  constexpr double k_worth = 2;
+  for (const Volume<double>& cheaper : cheaper_fits(method, p, options)) {
+    const Volume<double> v = placed(cheaper, p.hull.frame);
+    if (!held || measures_of(v).volume <= out.measures.volume * k_worth) keep_if_less(v);
+  }
+  if (!held) return std::nullopt;
   // A whisker below, so that the roundings of the bound itself cannot put it above the truth.
   // The hull's volume is a bound for every kind.
   const double bound = std::max(fit.lower_bound * (1 - 1e-12), p.hull.volume * (1 - 1e-9));
