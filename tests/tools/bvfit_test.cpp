@@ -224,6 +224,11 @@ TEST_F(Bvfit, VerifyJudgesWhatOthersWrote) {
       {R"({"sets":[{"name":"group 1","volumes":[]}]})", "a mesh has no leaf groups"},
       {R"({"sets":[{"name":"crown","volumes":[]}]})", "no set of points 'crown'"},
       {R"({"sets":[{"volumes":[{"type":"sphere","center":[0,0,0],"radius":-9}]}]})", "leave points outside"},
+      {R"({"sets":[]})", "nothing to verify"},
+      {R"({"sets":[{"volumes":[{"type":"sphere","center":[0,0,0],"radius":2,"volume":33.6}]}]})",
+       "of 'whole': its \"volume\" is 33.5103"},
+      {R"({"sets":[{"volumes":[{"type":"sphere","center":[0,0,0],"radius":2,"lower_bound":33.6}]}]})",
+       "is no bound of its volume"},
       {R"({"sets":[{"volumes":[{"type":"sphere","center":[0,0,0],"radius":1e999}]}]})", "no JSON"}};
   for (const auto& [text, says] : wrong) {
     const Outcome o = run({"--verify", save("wrong.json", text), mesh});

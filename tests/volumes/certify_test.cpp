@@ -106,6 +106,16 @@ TEST(Certify, WhatIsNoVolumeContainsNothing) {
   EXPECT_FALSE(inside(BoundingSphere<double>{p, nan}, p));
   EXPECT_FALSE(inside(DoubleBox{}, p));
   EXPECT_FALSE(inside(OrientedBox<double>{p, {x, y, z}, {1, -1, 1}}, p));
+  for (const std::array<Double3, 3>& axes : {std::array{p, p, p},
+                                             {x, x, x},
+                                             {x, y, y},
+                                             {x, y, z * 2},
+                                             {x, y, z + y * 1e-5},
+                                             {x, y, {0, 0, nan}}}) {
+    EXPECT_FALSE(inside(OrientedBox<double>{p, axes, {1, 1, 1}}, p));
+    EXPECT_FALSE(inside(Ellipsoid<double>{p, axes, {1, 1, 1}}, p));
+  }
+  EXPECT_TRUE(inside(OrientedBox<double>{p, {x, y, z + y * 1e-7}, {1, 1, 1}}, p));
   EXPECT_FALSE(inside(Capsule<double>{p, {nan, 0, 0}, 1}, p));
   EXPECT_FALSE(inside(Cylinder<double>{x, x, 5}, p));
   EXPECT_FALSE(inside(Kdop<double>{{x}, {-1, -1}, {1}}, p));

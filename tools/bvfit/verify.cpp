@@ -1,9 +1,11 @@
 #include "tools/bvfit/verify.h"
 
 #include "lib/analysis/volumes/certify.h"
+#include "lib/analysis/volumes/volume_measures.h"
 #include "lib/formats/mapped_file.h"
 #include "tools/bvfit/volumes_json.h"
 
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -124,6 +126,20 @@ std::string line_of(const Verdict& v) {
                      v.certificate.points, v.certificate.excess);
 }
 
+// What is wrong with the numbers that a volume says of itself; empty when nothing is.
+std::string false_numbers(const ReadVolume& v) {
+  constexpr double k_digits = 1e-5,
+                   k_flat = 1e-12;  // relative, and of what a flat thing's volume cancels from
+  const VolumeMeasures m = measures_of(v.volume);
+  const double room = k_digits * m.volume + k_flat * m.surface * m.mean_width;
+  if (v.says_volume && !(std::abs(*v.says_volume - m.volume) <= room))
+    return fmt::format("its \"volume\" is {:.6g}, not {:.6g}", m.volume, *v.says_volume);
+  if (v.says_bound && !(*v.says_bound >= 0 && *v.says_bound <= m.volume + room))
+    return fmt::format("its \"lower_bound\" {:.6g} is no bound of its volume, {:.6g}", *v.says_bound,
+                       m.volume);
+  return "";
+}
+
 }  // namespace
 
 Result<void> verify_volumes(const Options& options, Context& context) {
@@ -134,6 +150,7 @@ Result<void> verify_volumes(const Options& options, Context& context) {
   if (!input) return std::unexpected(input.error());
   Stage stage = context.stage("verify");
   Verdict worst;
+  std::string lie;  // the first
   std::size_t failed = 0, judged = 0, done = 0;
   std::uint64_t tests = 0;
   Contents contents(*input, *volumes);
@@ -148,7 +165,11 @@ Result<void> verify_volumes(const Options& options, Context& context) {
       Verdict v{name_of_set(set), &volume, certify(volume.volume, *points), {}};
       ++judged;
       if (!context.options().quiet || !v.certificate.holds()) context.print(line_of(v));
-      if (v.certificate.holds()) continue;
+      if (v.certificate.holds()) {
+        if (const std::string wrong = false_numbers(volume); !wrong.empty() && lie.empty())
+          lie = fmt::format("{} ({}) of '{}': {}", volume.type, volume.method, v.set, wrong);
+        continue;
+      }
       ++failed;
       v.worst = (*points)[v.certificate.worst];
       if (worst.volume == nullptr || v.certificate.excess > worst.certificate.excess) worst = v;
@@ -156,6 +177,10 @@ Result<void> verify_volumes(const Options& options, Context& context) {
     stage.progress(static_cast<double>(++done) / static_cast<double>(volumes->sets.size()));
   }
   stage.items(judged, "volumes");
+  if (judged == 0)
+    return refuse(options.verify.string(), "it has no volumes, so there is nothing to verify",
+                  "fit some first (bvfit -o)");
+  if (failed == 0 && !lie.empty()) return refuse(options.verify.string(), lie, "fit them again");
   if (failed == 0) return {};
   return refuse(options.verify.string(),
                 fmt::format("{} of {} volumes leave points outside; the worst is {} ({}) of '{}': point {} "

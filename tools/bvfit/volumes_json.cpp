@@ -188,6 +188,11 @@ std::uint32_t index_of(const nlohmann::json& j, const char* name) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(j[name].get<std::uint64_t>(), k_none));
 }
 
+std::optional<double> number_of(const nlohmann::json& j, const char* name) {
+  if (!j.contains(name) || !j[name].is_number()) return std::nullopt;
+  return j[name].get<double>();
+}
+
 Result<ReadVolume> read_volume(const nlohmann::json& j, const std::string& file, const std::string& place) {
   ReadVolume v;
   v.type = text_of(j, "type"), v.method = text_of(j, "method");
@@ -204,6 +209,7 @@ Result<ReadVolume> read_volume(const nlohmann::json& j, const std::string& file,
         fmt::format("{}: '{}' of this {} is missing or of the wrong shape", place, members.missing(), v.type),
         "write it as bvfit does");
   }
+  v.says_volume = number_of(j, "volume"), v.says_bound = number_of(j, "lower_bound");
   v.says_certified = j.contains("certified") && j["certified"].is_boolean() && j["certified"].get<bool>();
   return v;
 }

@@ -4,6 +4,7 @@
 #include "lib/formats/result.h"
 #include "tools/bvfit/fits.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct ReadVolume {
   std::string type, method;
   Volume<double> volume;
   bool says_certified = false;
+  std::optional<double> says_volume = std::nullopt, says_bound = std::nullopt;
 };
 struct ReadSet {
   std::string name;  // without " envelope"

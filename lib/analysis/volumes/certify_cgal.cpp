@@ -202,10 +202,19 @@ bool sound(const DoubleBox& v) {
 bool sound(const BoundingSphere<double>& v) {
   return is_finite(v.centre) && sound(v.radius);
 }
+// Unit and orthogonal as far as float32 can say it (volume.h).
+bool orthonormal(const std::array<Double3, 3>& axes) {
+  constexpr double k_rounding = 1e-6;  // some ten units
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j) {
+      if (!(std::abs(dot(axes[i], axes[j]) - (i == j ? 1 : 0)) <= k_rounding)) return false;
+    }
+  }
+  return true;
+}
 template <class V>
 bool framed(const V& v, const Double3& sizes) {
-  return is_finite(v.centre) && is_finite(v.axes[0]) && is_finite(v.axes[1]) && is_finite(v.axes[2]) &&
-         sound(sizes.x) && sound(sizes.y) && sound(sizes.z);
+  return is_finite(v.centre) && orthonormal(v.axes) && sound(sizes.x) && sound(sizes.y) && sound(sizes.z);
 }
 bool sound(const OrientedBox<double>& v) {
   return framed(v, v.half_extents);
