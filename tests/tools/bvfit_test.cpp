@@ -416,5 +416,12 @@ TEST_F(Bvfit, MistakesAreOneLineWithTheRightStatus) {
   }
 }
 
+TEST_F(Bvfit, TypesThatFloat32CannotHoldAreNamedInOneWarning) {
+  const Outcome o = run({save("large.xyz", "-2.5e38 -2.5e38 0\n2.5e38 2.5e38 1\n-2.5e38 2.5e38 -3\n")});
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(line_count(o.err), 1u) << o.err;
+  EXPECT_NE(o.err.find("float32 cannot hold them: volumes of type sphere"), std::string::npos) << o.err;
+}
+
 }  // namespace
 }  // namespace copse

@@ -166,6 +166,18 @@ std::string unproven_text(std::span<const SetFit> fits) {
       unproven, searched, of);
 }
 
+std::string dropped_text(std::span<const SetFit> fits) {
+  std::string names;
+  for (std::size_t kind = 0; kind < k_volume_names.size(); ++kind) {
+    const bool missing = std::any_of(fits.begin(), fits.end(), [&](const SetFit& fit) {
+      return std::find(fit.dropped.begin(), fit.dropped.end(), static_cast<VolumeKind>(kind)) !=
+             fit.dropped.end();
+    });
+    if (missing) names += fmt::format("{}{}", names.empty() ? "" : ", ", k_volume_names[kind]);
+  }
+  return names.empty() ? "" : "left out, as float32 cannot hold them: volumes of type " + names;
+}
+
 Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods, const Options& options,
                        const Choosing& choosing) {
   const auto fitter = VolumeFitter::make(set.points, set.triangles);
@@ -184,7 +196,11 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
                        options.budget / static_cast<double>(std::max<std::size_t>(1, methods.size()))};
   for (const FitMethod& m : methods_for(methods, choosing, fit.ratios)) {
     auto v = fitter->fit(m, how);
-    if (v) fit.volumes.push_back(std::move(*v));
+    if (v) {
+      fit.volumes.push_back(std::move(*v));
+    } else {
+      fit.dropped.push_back(m.kind);
+    }
   }
   if (fit.volumes.empty()) return refuse("", set.name + " is too large for float32", "use a smaller scale");
   share_lower_bounds(fit.volumes);

@@ -22,6 +22,7 @@ struct SetFit {
   AspectRatios ratios;
   double hull_seconds = 0;
   std::vector<FittedVolume> volumes;
+  std::vector<VolumeKind> dropped;  // types of volumes that float32 cannot hold
   std::size_t chosen = 0;
 };
 
@@ -49,6 +50,10 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
 // With --quality exact: what has not been proven to its gap, in a sentence; empty when all has been. What is
 // flat has no gap.
 std::string unproven_text(std::span<const SetFit> fits);
+
+// The types of which volumes are missing because float32 cannot hold them, in a sentence; empty when none
+// are.
+std::string dropped_text(std::span<const SetFit> fits);
 
 // The index of the volume to test with.
 std::size_t choose_volume(const SetFit& fit, const Choosing& choosing);

@@ -78,8 +78,21 @@ const char* seed_time(const std::string& kind) {
 
 }  // namespace
 
+Result<void> check_hierarchy(const std::string& kind, std::span<const PartSet> parts, const Input& input) {
+  if (std::none_of(parts.begin(), parts.end(), is_item)) {
+    return fail(Fault::usage, input.name, "a hierarchy needs parts to stand on",
+                "add --per groups, segments, cells or parts");
+  }
+  if (!kind.empty() && std::find(k_kinds.begin(), k_kinds.end(), kind) == k_kinds.end()) {
+    return fail(Fault::usage, "", fmt::format("--hierarchy knows no '{}'", kind),
+                fmt::format("use {}", fmt::join(k_kinds, ", ")));
+  }
+  return {};
+}
+
 Result<Hierarchy> build_hierarchy(const std::string& kind, std::span<const PartSet> parts,
                                   const Input& input) {
+  if (auto ok = check_hierarchy(kind, parts, input); !ok) return std::unexpected(ok.error());
   Hierarchy h;
   std::vector<DoubleBox> boxes;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -88,17 +101,9 @@ Result<Hierarchy> build_hierarchy(const std::string& kind, std::span<const PartS
     boxes.emplace_back();
     for (const Double3& p : parts[i].points) boxes.back().grow(p);
   }
-  if (h.items.empty()) {
-    return fail(Fault::usage, input.name, "a hierarchy needs parts to stand on",
-                "add --per groups, segments, cells or parts");
-  }
   const auto k = [&](std::string_view prefix) {
     return static_cast<std::uint32_t>(std::stoul(kind.substr(prefix.size())));
   };
-  if (std::find(k_kinds.begin(), k_kinds.end(), kind) == k_kinds.end()) {
-    return fail(Fault::usage, "", fmt::format("--hierarchy knows no '{}'", kind),
-                fmt::format("use {}", fmt::join(k_kinds, ", ")));
-  }
   if (kind.starts_with("kd")) {
     h.tree = kd_tree(boxes, k("kd"));
   } else if (kind.starts_with("rtree")) {

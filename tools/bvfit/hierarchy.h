@@ -17,6 +17,9 @@ struct Hierarchy {
   std::vector<SetFit> inner;       // one a node with several items, in the order of the nodes
 };
 
+// Whether it can be built, before anything is fitted; `kind` may be empty. Errors as of build_hierarchy.
+Result<void> check_hierarchy(const std::string& kind, std::span<const PartSet> parts, const Input& input);
+
 // The tree alone; `kind` as --hierarchy has it. An error (usage) for other names, refused when there are no
 // parts to build on.
 Result<Hierarchy> build_hierarchy(const std::string& kind, std::span<const PartSet> parts,

@@ -182,6 +182,9 @@ Result<void> run(const Options& options, Context& context) {
   if (!input) return std::unexpected(input.error());
   auto parts = part_sets(*input, options.per);
   if (!parts) return std::unexpected(parts.error());
+  if (!options.hierarchy.empty() || options.compare_hierarchies) {
+    if (auto ok = check_hierarchy(options.hierarchy, *parts, *input); !ok) return ok;
+  }
   Work work{std::move(*input), std::move(*parts), std::move(*methods), std::move(*how), {}, {}};
   const auto named = [&](Result<void> result) {
     if (!result && result.error().file.empty()) result.error().file = work.input.name;
@@ -194,6 +197,7 @@ Result<void> run(const Options& options, Context& context) {
   const auto more = extras(work, options, context);
   if (!more) return std::unexpected(more.error());
   if (auto ok = named(hierarchy_stage(work, options, context)); !ok) return ok;
+  if (const std::string text = dropped_text(work.sets); !text.empty()) context.warn(text);
   if (options.quality == FitQuality::exact) {
     if (const std::string text = unproven_text(work.sets); !text.empty()) context.warn(text);
   }
