@@ -16,7 +16,9 @@ namespace {
 
 constexpr int k_directions = 48;   // of the fixed set of starts
 constexpr std::size_t k_kept = 3;  // of them are descended from
-constexpr int k_rounds = 100;      // of a descent; some 40 do
+// A small hull has few, deep creases: along its edges and across its faces more starts, and more are kept.
+constexpr std::size_t k_small_hull = 60, k_kept_small = 10;
+constexpr int k_rounds = 100;  // of a descent; some 40 do
 constexpr double k_rounding = 1e-12;
 
 double volume_of(double radius, double height) {
@@ -105,6 +107,13 @@ std::vector<Double3> starts_for(const ConvexHull& hull) {
     const double z = (i + 0.5) / k_directions, r = std::sqrt(1 - z * z);
     starts.push_back({r * std::cos(golden * i), r * std::sin(golden * i), z});
   }
+  if (hull.vertices.size() >= k_small_hull) return starts;
+  const auto add = [&](const Double3& d) {
+    if (length(d) > 0) starts.push_back(normalized(d));
+  };
+  const std::vector<Double3>& v = hull.vertices;
+  for (const HullEdge& e : hull.edges) add(v[e.b] - v[e.a]);
+  for (const auto& [a, b, c] : hull.faces) add(cross(v[b] - v[a], v[c] - v[a]));
   return starts;
 }
 
@@ -144,7 +153,8 @@ Tube search(const ConvexHull& hull) {
                    [](const Tube& a, const Tube& b) { return a.volume() < b.volume(); });
   Tube best = tubes[0];
   std::vector<Double3> ends;
-  for (std::size_t i = 0; i < tubes.size() && ends.size() < k_kept; ++i) {
+  const std::size_t kept = hull.vertices.size() < k_small_hull ? k_kept_small : k_kept;
+  for (std::size_t i = 0; i < tubes.size() && ends.size() < kept; ++i) {
     const auto near = [&](const Double3& e) { return std::abs(dot(e, tubes[i].direction)) > 0.98; };
     if (std::any_of(ends.begin(), ends.end(), near)) continue;
     ends.push_back(tubes[i].direction);

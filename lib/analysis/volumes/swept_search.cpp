@@ -12,6 +12,8 @@ constexpr int k_rough_rounds = 2;
 constexpr std::size_t k_finalists = 6;           // of 13
 constexpr std::size_t k_lozenge_finalists = 14;  // of 27: the rough order is no more than a hint
 
+constexpr std::size_t k_small_hull = 60;  // of fewer points all go on: they are quick, and misled easily
+
 Axes about(const Axes& base, const Double3& direction) {
   const Double3 u = normalized(direction);
   const Double3 side = std::abs(u.x) < 0.7 ? Double3{1, 0, 0} : Double3{0, 1, 0};
@@ -64,7 +66,9 @@ SweptFit search_around(Swept kind, std::span<const Double3> points) {
   }
   std::stable_sort(scouts.begin(), scouts.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  const std::size_t finalists = kind == Swept::lozenge ? k_lozenge_finalists : k_finalists;
+  const std::size_t finalists = points.size() < k_small_hull ? scouts.size()
+                                : kind == Swept::lozenge     ? k_lozenge_finalists
+                                                             : k_finalists;
   SweptFit best;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < scouts.size() && i < finalists; ++i) {
