@@ -49,5 +49,12 @@ TEST(Spacing, AGiantAmongSeedlingsIsFoundFromFarAway) {
   }
 }
 
+TEST(Spacing, ALargeDiscAmongTinyOnesIsAnsweredAtOnce) {
+  Spacing spacing;
+  for (const double radius : {5e-5, 1e-12, 1e-300}) spacing.add({1, 1, radius});
+  EXPECT_FALSE(spacing.is_free({0, 0, 500}));
+  EXPECT_TRUE(spacing.is_free({0, -500, 500}));
+}
+
 }  // namespace
 }  // namespace copse

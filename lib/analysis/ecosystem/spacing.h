@@ -3,7 +3,7 @@
 //
 // Discs are kept in one grid of buckets for every power of two of their radius, so that a giant among a
 // million seedlings costs no more than another seedling. A query costs O(1) when no disc is placed among much
-// smaller ones: place the large ones first.
+// smaller ones: place the large ones first. It never looks at more buckets than are filled.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ class Spacing {
  private:
   struct Level {
     double bucket = 1;                                             // side: the largest diameter of the level
-    std::unordered_map<std::uint64_t, std::vector<Disc>> buckets;  // found by key, never iterated
+    std::unordered_map<std::uint64_t, std::vector<Disc>> buckets;  // by key
   };
   std::map<int, Level> levels_;  // by the exponent of the radius
   std::size_t count_ = 0;
