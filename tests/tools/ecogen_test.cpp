@@ -240,6 +240,26 @@ TEST_F(Ecogen, MapsOfOddChannelsAndDepthsSteerDensity) {
   EXPECT_NE(refusal().find("page.json"), std::string::npos);
 }
 
+// Where only one of the types has its clusters it gets all of the mix: what is shared out is what is planted.
+TEST_F(Ecogen, AMixWithClustersIsSharedOutByTheClustersThatItIsPlantedBy) {
+  const auto half = [&](const char* name, bool west) {
+    Image image{.width = 64, .height = 64, .rgba = std::vector<std::uint8_t>(4 * 64 * 64, 255)};
+    for (std::size_t i = 0; i < 64 * 64; ++i)
+      for (std::size_t c = 0; c < 3; ++c) image.rgba[4 * i + c] = (i % 64 < 32) == west ? 255 : 0;
+    ASSERT_TRUE(write_image(file(name), image));
+  };
+  half("west.png", true), half("east.png", false);
+  for (auto& t : page_["types"]) t.erase("count"), t["clusters"] = {{"count", 6}, {"radius", 4}};
+  page_["mixes"] = Json::parse(R"([{"count": 500, "parts": [{"type": "a", "share": "west.png"},
+                                                             {"type": "b", "share": "east.png"}]}])");
+  for (int seed = 0; seed < 6; ++seed) {
+    page_["seed"] = seed;
+    const Outcome o = run();
+    ASSERT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(load().instance_count(), 500u);
+  }
+}
+
 TEST_F(Ecogen, WhatIsPackedNeedsNoOtherFile) {
   ASSERT_EQ(run({"--pack", "--report", file("r.json")}).status, 0);
   const Ecosystem eco = load();

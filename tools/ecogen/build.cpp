@@ -199,11 +199,14 @@ class Builder {
         side = std::max(side, field_side(largest, mix.count, plans_[part.type].rules.clusters, area));
       std::vector<double> weights;
       for (std::size_t i = 0; i < mix.parts.size(); ++i) {
-        PlacementRules& rules = plans_[mix.parts[i].type].rules;
+        TypePlan& plan = plans_[mix.parts[i].type];
+        PlacementRules& rules = plan.rules;
+        plan.field_cells = side;
         rules.density = *density;
         rules.share_of = shares[i];
         rules.share_total = shares;
-        weights.push_back(make_field(rules, area, ground, side, side, random_).total());
+        weights.push_back(
+            field_of(plan, mix.parts[i].type, ground, area, random_.fork(stream_plants)).total());
       }
       const auto counts = apportion(mix.count, weights);
       for (std::size_t i = 0; i < counts.size(); ++i) plans_[mix.parts[i].type].count = counts[i];

@@ -133,22 +133,13 @@ class Planter {
     out_.types[t].crowded = static_cast<std::uint64_t>(std::count(crowded.begin(), crowded.end(), 1));
   }
 
-  DensityField field_of(std::size_t t) const {
-    const PlacementRules& r = types_[t].rules;
-    std::uint32_t largest = 0;
-    for (const ValueMap* m : {r.density, r.forbidden, r.share_of, r.distance_to})
-      if (m) largest = std::max({largest, m->width, m->height});
-    const std::uint32_t side = field_side(largest, types_[t].count, r.clusters, area_);
-    return make_field(r, area_, ground_, side, side, stream(t, stream_clusters));
-  }
-
   std::unexpected<Error> nowhere(std::size_t t) const {
     return refuse("", fmt::format("{}: there is no place that its maps and rules allow", types_[t].name),
                   "widen its rules, or set its count to 0");
   }
 
   Result<void> spread(std::size_t t) {
-    const DensityField field = field_of(t);
+    const DensityField field = field_of(types_[t], t, ground_, area_, random_);
     const Spreader spreader(field);
     if (!(spreader.total() > 0)) return nowhere(t);
     const PlacementTest test(types_[t].rules, area_, ground_);
@@ -183,7 +174,7 @@ class Planter {
   Result<void> space(std::size_t t) {
     const TypePlan& p = types_[t];
     if (p.count == 0) return {};
-    const DensityField field = field_of(t);
+    const DensityField field = field_of(types_[t], t, ground_, area_, random_);
     const Spreader spreader(field);
     if (!(spreader.total() > 0)) return nowhere(t);
     const PlacementTest test(p.rules, area_, ground_);
@@ -254,6 +245,17 @@ class Planter {
 };
 
 }  // namespace
+
+DensityField field_of(const TypePlan& plan, std::size_t type, const TerrainGround& ground,
+                      const PlantedArea& area, const Random& random) {
+  const PlacementRules& r = plan.rules;
+  std::uint32_t largest = 0;
+  for (const ValueMap* m : {r.density, r.forbidden, r.share_of, r.distance_to})
+    if (m) largest = std::max({largest, m->width, m->height});
+  const std::uint32_t side =
+      plan.field_cells > 0 ? plan.field_cells : field_side(largest, plan.count, r.clusters, area);
+  return make_field(r, area, ground, side, side, random.fork(type).fork(stream_clusters));
+}
 
 Result<Population> populate(std::span<const TypePlan> types, const TerrainGround& ground,
                             const PlantedArea& area, const Random& random) {

@@ -39,6 +39,7 @@ struct TypePlan {
   const TintMap* tint_map = nullptr;
   std::uint32_t trunk_material = k_none, leaf_material = k_none, motion = 0;
   PlacementRules rules{};
+  std::uint32_t field_cells = 0;  // a side of its density field; 0: as its maps, count and clusters need
   double footprint = 0;  // m at scale 1: in cells this far from the border of the cell, where it fits
   double spacing = 0;    // m at scale 1: radius of a disc that overlaps no other; 0: not kept apart
   // Types without spacing whose feet, those by hand included, its discs keep off.
@@ -58,6 +59,11 @@ struct Population {
   std::vector<TypeCounts> types;
   std::uint64_t cells = 0, displaced = 0, in_random_cells = 0;  // of the jittered cells
 };
+
+// What limits type number `type`, on a grid; `random` as given to populate(), which plants over this very
+// field.
+DensityField field_of(const TypePlan& plan, std::size_t type, const TerrainGround& ground,
+                      const PlantedArea& area, const Random& random);
 
 // Refused: no ground that the rules allow for a type that is to be planted; spacing that leaves no room for
 // all.
