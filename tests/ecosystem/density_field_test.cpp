@@ -121,8 +121,30 @@ TEST(DensityField, TheGridFollowsMapsCountsAndClustersUpToALimit) {
   EXPECT_EQ(side(500, 1), 1000u);
   EXPECT_EQ(side(0, 250000), 500u);
   EXPECT_EQ(side(4096, 1), k_most_field_cells);
+  EXPECT_EQ(side(1366, 1), 1366u);  // whole multiples and parts of the map
+  EXPECT_EQ(side(1500, 1), 1500u);
+  EXPECT_EQ(side(10, 1), 70u);
+  EXPECT_EQ(side(6000, 1), 2000u);
+  EXPECT_EQ(side(4099, 1), k_most_field_cells);              // a prime
   EXPECT_EQ(side(0, 1, {.count = 3, .radius = 0.5}), 512u);  // of 64 m
   EXPECT_EQ(side(0, 1, {.count = 3, .radius = 1e-6}), k_most_field_cells);
+}
+
+// A stripe of one pixel every so many, in a map that no grid fits.
+TEST(DensityField, EveryPixelOfALargeMapCounts) {
+  const World world;
+  for (const std::uint32_t w : {1366u, 3001u, 4096u}) {
+    ValueMap map{w, 1, std::vector<float>(w)};
+    for (std::uint32_t i = 0; i < w; i += 3) map.values[i] = 1;
+    const std::uint32_t side = field_side(w, 1, {}, k_area);
+    EXPECT_NEAR(world.field({.density = &map}, side).total() / side / side, 1 / 3.0, 0.003) << w;
+  }
+}
+
+TEST(DensityField, ARuleThinnerThanACellHasItsShare) {
+  PlacementRules band;
+  band.altitude = {16.1, 16.25};
+  EXPECT_NEAR(World().field(band).total(), 64 * 0.15, 0.2);
 }
 
 TEST(DensityField, ClustersSmallerThanACellAreNotLost) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -78,6 +79,55 @@ TEST(Spread, PointsKeepASharpRuleInsideACell) {
     const GroundPlace p = spreader.draw(i, 2000, test, random);
     EXPECT_TRUE(test.allows(p.x, p.z));
   }
+}
+
+// From a map to the points: stripes and a checker finer than the grid, black pixels stay empty.
+TEST(Spread, MapsFinerThanTheGridArePlantedPixelByPixel) {
+  const Terrain terrain = regular_terrain(3, 64, [](double, double) { return 0; });
+  const TerrainGround ground(terrain);
+  const PlantedArea area{0, 0, 64, 64};
+  const auto spread = [&](std::uint32_t w, auto value) {
+    ValueMap map{w, w, std::vector<float>(std::size_t{w} * w)};
+    for (std::size_t i = 0; i < map.values.size(); ++i) map.values[i] = value(i % w, i / w);
+    const PlacementRules rules{.density = &map};
+    const std::uint32_t side = field_side(w, 1, {}, area);
+    const DensityField f = make_field(rules, area, ground, side, side, Random(1));
+    const Spreader spreader(f);
+    const PlacementTest test(rules, area, ground);
+    std::vector<double> counts(3);
+    for (std::uint64_t i = 0; i < 20000; ++i) {
+      Random random = Random(3).fork(i);
+      const GroundPlace p = spreader.draw(i, 20000, test, random);
+      ++counts[static_cast<std::size_t>(pixel_at(map, area, p.x, p.z))];
+    }
+    return counts;
+  };
+  const auto stripes = spread(1500, [](std::size_t x, std::size_t) { return x % 3; });
+  EXPECT_EQ(stripes[0], 0);
+  EXPECT_NEAR(stripes[2] / 20000, 2 / 3.0, 0.01);
+  const auto checker =
+      spread(4096, [](std::size_t x, std::size_t z) { return (x + z) % 2 + (x + z) % 2 * (x % 2); });
+  EXPECT_EQ(checker[0], 0);
+  EXPECT_NEAR(checker[2] / 20000, 2 / 3.0, 0.01);
+}
+
+TEST(Spread, AThinRuleStacksNoPoints) {
+  const Terrain terrain = regular_terrain(65, 64, [](double x, double) { return x; });
+  const TerrainGround ground(terrain);
+  PlacementRules rules;
+  rules.altitude = {16.1, 16.11};
+  const PlantedArea area{0, 0, 64, 64};
+  const DensityField f = make_field(rules, area, ground, 64, 64, Random(1));
+  const Spreader spreader(f);
+  const PlacementTest test(rules, area, ground);
+  std::set<std::pair<double, double>> places;
+  for (std::uint64_t i = 0; i < 5000; ++i) {
+    Random random = Random(2).fork(i);
+    const GroundPlace p = spreader.draw(i, 5000, test, random);
+    EXPECT_TRUE(test.allows(p.x, p.z));
+    places.insert({p.x, p.z});
+  }
+  EXPECT_EQ(places.size(), 5000u);
 }
 
 TEST(Spread, SharesAddUp) {

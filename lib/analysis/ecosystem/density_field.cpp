@@ -3,7 +3,9 @@
 #include "lib/analysis/ecosystem/degrees.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -94,6 +96,29 @@ std::vector<double> cluster_kernel(const Clusters& clusters, const DensityField&
   return kernel;
 }
 
+// Samples a side of a cell. Where the pixels of every map can have whole squares of samples they get them.
+std::uint32_t samples_of(const PlacementRules& rules, const TerrainGround& ground, std::uint32_t columns,
+                         std::uint32_t rows) {
+  constexpr std::uint32_t k_along_a_side = 1024;  // for the rules of the ground, which know no pixels
+  constexpr std::uint32_t k_most = 16, k_cut = 2;
+  std::uint32_t whole = 1, least = 1;
+  if (is_limit(rules.slope) || is_limit(rules.altitude) || !ground.covers_all())
+    whole = std::clamp(std::bit_ceil(k_along_a_side / std::max(std::min(columns, rows), 1u)), 2u, k_most);
+  const auto count = [&](std::uint32_t pixels, std::uint32_t cells) {
+    const std::uint32_t need = std::lcm(whole, pixels / std::gcd(pixels, cells));
+    if (need <= k_most)
+      whole = need;
+    else
+      least = std::max(least, k_cut * ((pixels + cells - 1) / cells));
+  };
+  std::vector<const ValueMap*> maps = rules.share_total;
+  for (const ValueMap* m : {rules.density, rules.forbidden, rules.share_of, rules.distance_to})
+    if (m) maps.push_back(m);
+  for (const ValueMap* m : maps)
+    if (m->width > 0 && m->height > 0) count(m->width, columns), count(m->height, rows);
+  return (least + whole - 1) / whole * whole;
+}
+
 }  // namespace
 
 bool PlacementRules::limits_anything() const {
@@ -116,8 +141,15 @@ std::uint32_t field_side(std::uint32_t largest_map, std::uint64_t instances, con
   double wanted = std::max(2.0 * largest_map, std::sqrt(static_cast<double>(instances)));
   if (clusters.count > 0)
     wanted = std::max(wanted, 4 * std::max(area.width(), area.depth()) / clusters.radius);
-  return static_cast<std::uint32_t>(
+  const auto side = static_cast<std::uint32_t>(
       std::clamp(std::ceil(wanted), 64.0, static_cast<double>(k_most_field_cells)));
+  if (largest_map == 0) return side;
+  if (largest_map <= k_most_field_cells)
+    return std::min((side + largest_map - 1) / largest_map, k_most_field_cells / largest_map) * largest_map;
+  const std::uint32_t part = (largest_map + k_most_field_cells - 1) / k_most_field_cells;
+  for (std::uint32_t k = part; k <= 2 * part; ++k)
+    if (largest_map % k == 0) return largest_map / k;
+  return side;
 }
 
 ValueMap distance_map(const ValueMap& map, const PlantedArea& area) {
@@ -164,30 +196,53 @@ bool PlacementTest::allows(double x, double z) const {
   return rules_.altitude.holds(here->height);
 }
 
+double PlacementTest::weight(double x, double z) const {
+  double w = rules_.density ? std::max(pixel_at(*rules_.density, area_, x, z), 0.0) : 1;
+  if (w > 0 && rules_.share_of) {
+    double sum = 0;
+    for (const ValueMap* share : rules_.share_total) sum += std::max(pixel_at(*share, area_, x, z), 0.0);
+    w = sum > 0 ? w * std::max(pixel_at(*rules_.share_of, area_, x, z), 0.0) / sum : 0;
+  }
+  return w > 0 && allows(x, z) ? w : 0;
+}
+
+GroundPlace DensityField::point(std::uint32_t cell, double u, double v) const {
+  return {area.x0 + (cell % columns + u) / columns * area.width(),
+          area.z0 + (cell / columns + v) / rows * area.depth()};
+}
+
+GroundPlace sample_in_cell(std::uint32_t i, std::uint32_t j, std::uint32_t samples) {
+  const double n = samples;
+  return {(i + (j + 0.5) / n) / n, (j + (i + 0.5) / n) / n};
+}
+
 DensityField make_field(const PlacementRules& rules, const PlantedArea& area, const TerrainGround& ground,
                         std::uint32_t columns, std::uint32_t rows, const Random& random) {
-  DensityField field{area, columns, rows, std::vector<double>(std::size_t{columns} * rows)};
+  DensityField field{area,
+                     columns,
+                     rows,
+                     std::vector<double>(std::size_t{columns} * rows),
+                     std::vector<float>(std::size_t{columns} * rows),
+                     samples_of(rules, ground, columns, rows)};
   const PlacementTest test(rules, area, ground);
   std::vector<double> clusters;
   if (rules.clusters.count > 0) clusters = cluster_kernel(rules.clusters, field, random);
-  const auto weight = [&](double x, double z) {
-    double w = rules.density ? std::max(pixel_at(*rules.density, area, x, z), 0.0) : 1;
-    if (w > 0 && rules.share_of) {
-      double sum = 0;
-      for (const ValueMap* share : rules.share_total) sum += std::max(pixel_at(*share, area, x, z), 0.0);
-      w = sum > 0 ? w * std::max(pixel_at(*rules.share_of, area, x, z), 0.0) / sum : 0;
-    }
-    return w > 0 && test.allows(x, z) ? w : 0;
-  };
+  const std::uint32_t n = field.samples;
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, rows), [&](const auto& range) {
-    for (std::uint32_t r = range.begin(); r < range.end(); ++r)
-      for (std::uint32_t c = 0; c < columns; ++c) {
-        const std::size_t i = std::size_t{r} * columns + c;
-        const double near = clusters.empty() ? 1 : clusters[i];
-        if (!(near > 0)) continue;
-        field.weights[i] = near * weight(area.x0 + (c + 0.5) / columns * area.width(),
-                                         area.z0 + (r + 0.5) / rows * area.depth());
-      }
+    for (std::uint32_t cell = range.begin() * columns; cell < range.end() * columns; ++cell) {
+      const double near = clusters.empty() ? 1 : clusters[cell];
+      if (!(near > 0)) continue;
+      double sum = 0, peak = 0;
+      for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i < n; ++i) {
+          const GroundPlace in = sample_in_cell(i, j, n), at = field.point(cell, in.x, in.z);
+          const double w = test.weight(at.x, at.z);
+          sum += w;
+          peak = std::max(peak, w);
+        }
+      field.weights[cell] = near * (sum / (n * n));
+      field.peaks[cell] = static_cast<float>(peak);
+    }
   });
   return field;
 }

@@ -37,30 +37,44 @@ struct PlacementRules {
   bool limits_anything() const;
 };
 
+struct GroundPlace {
+  double x = 0, z = 0;
+};
+
 // Weights of cells, row after row over an area.
 struct DensityField {
   PlantedArea area;
   std::uint32_t columns = 0, rows = 0;
-  std::vector<double> weights;  // >= 0
-  double total() const;         // summed row by row
+  std::vector<double> weights;  // >= 0; means over the cells
+  std::vector<float> peaks{};   // the largest weight of a point of the cell, its clusters left out
+  std::uint32_t samples = 1;    // a side of a cell
+  GroundPlace point(std::uint32_t cell, double u, double v) const;  // 0 to 1 across the cell
+  double total() const;                                             // summed row by row
 };
 
 inline constexpr std::uint32_t k_most_field_cells = 2048;  // a side
 
 // Cells a side for these maps, so many instances and these clusters: at least 2 cells a pixel each way, 4 a
-// radius and as many cells as instances, where that fits; at most k_most_field_cells.
+// radius and as many cells as instances, where that fits; at most k_most_field_cells. A whole multiple of the
+// map's side, or a whole part of it, where there is one: then no pixel is cut by a cell's border.
 std::uint32_t field_side(std::uint32_t largest_map, std::uint64_t instances, const Clusters& clusters,
                          const PlantedArea& area);
 
-// Weights at the centres of cells; 0 where there is no ground. Rows in parallel.
+// Means over the cells; 0 where there is no ground. Every pixel counts, and so does a rule that holds in a
+// part of a cell only: a cell is sampled at as many points as its pixels and rules need. Rows in parallel.
 DensityField make_field(const PlacementRules& rules, const PlantedArea& area, const TerrainGround& ground,
                         std::uint32_t columns, std::uint32_t rows, const Random& random);
+
+// Where in its cell sample (i, j) of `samples` a side lies: in the square of its own that it stands for, each
+// in a row and a column of its own, so that thin stripes along the axes are met too.
+GroundPlace sample_in_cell(std::uint32_t i, std::uint32_t j, std::uint32_t samples);
 
 // Whether the sharp rules let something stand here (all but density, shares and clusters, which weigh).
 class PlacementTest {
  public:
   PlacementTest(const PlacementRules& rules, const PlantedArea& area, const TerrainGround& ground);
   bool allows(double x, double z) const;
+  double weight(double x, double z) const;  // density and share, 0 where not allowed; clusters left out
 
  private:
   const PlacementRules& rules_;

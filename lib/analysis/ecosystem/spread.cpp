@@ -30,27 +30,48 @@ std::uint32_t Spreader::cell_of(std::uint64_t piece, std::uint64_t pieces, Rando
   return cells_[static_cast<std::size_t>(std::min(found, cumulative_.end() - 1) - cumulative_.begin())];
 }
 
-GroundPlace Spreader::point_in(std::uint32_t cell, double u, double v) const {
-  const std::uint32_t c = cell % field_.columns, r = cell / field_.columns;
-  return {field_.area.x0 + (c + u) / field_.columns * field_.area.width(),
-          field_.area.z0 + (r + v) / field_.rows * field_.area.depth()};
-}
-
 GroundPlace Spreader::draw(std::uint64_t piece, std::uint64_t pieces, Random& random) const {
   const std::uint32_t cell = cell_of(piece, pieces, random);
   const double u = random.uniform(), v = random.uniform();
-  return point_in(cell, u, v);
+  return field_.point(cell, u, v);
 }
 
 GroundPlace Spreader::draw(std::uint64_t piece, std::uint64_t pieces, const PlacementTest& test,
                            Random& random) const {
   const std::uint32_t cell = cell_of(piece, pieces, random);
+  const double peak = static_cast<double>(field_.peaks[cell]);
   for (int i = 0; i < 8; ++i) {
     const double u = random.uniform(), v = random.uniform();
-    const GroundPlace place = point_in(cell, u, v);
-    if (test.allows(place.x, place.z)) return place;
+    const GroundPlace place = field_.point(cell, u, v);
+    const double weight = test.weight(place.x, place.z);
+    if (weight > 0 && random.uniform() * peak < weight) return place;
   }
-  return point_in(cell, 0.5, 0.5);
+  return search(cell, test, random);
+}
+
+// Where little of the cell is allowed: near a sample that is, drawn by weight.
+GroundPlace Spreader::search(std::uint32_t cell, const PlacementTest& test, Random& random) const {
+  const std::uint32_t n = field_.samples;
+  std::vector<double> sums;
+  double sum = 0;
+  for (std::uint32_t k = 0; k < n * n; ++k) {
+    const GroundPlace in = sample_in_cell(k % n, k / n, n), at = field_.point(cell, in.x, in.z);
+    sums.push_back(sum += test.weight(at.x, at.z));
+  }
+  const auto found = std::upper_bound(sums.begin(), sums.end(), random.uniform() * sum);
+  const auto k = static_cast<std::uint32_t>(std::min(found, sums.end() - 1) - sums.begin());
+  const GroundPlace sample = sample_in_cell(k % n, k / n, n);
+  // Anywhere in the square that the sample stands for; then ever nearer to it.
+  constexpr int k_anywhere = 16, k_nearer = 40;
+  double reach = 1;
+  for (int i = 0; i < k_anywhere + k_nearer; ++i) {
+    const double u = (k % n + random.uniform()) / n, v = (k / n + random.uniform()) / n;
+    const GroundPlace place =
+        field_.point(cell, sample.x + reach * (u - sample.x), sample.z + reach * (v - sample.z));
+    if (test.weight(place.x, place.z) > 0) return place;
+    if (i >= k_anywhere) reach /= 2;
+  }
+  return field_.point(cell, sample.x, sample.z);
 }
 
 std::vector<std::uint64_t> apportion(std::uint64_t total, std::span<const double> weights) {

@@ -16,10 +16,6 @@
 
 namespace copse {
 
-struct GroundPlace {
-  double x = 0, z = 0;
-};
-
 // The field's cells along the curve, and their mass summed up. O(cells).
 class Spreader {
  public:
@@ -28,13 +24,14 @@ class Spreader {
   double total() const { return cumulative_.empty() ? 0 : cumulative_.back(); }
   // A point of piece `piece` of `pieces`: uniform in mass; inside a cell uniform in area. total() > 0.
   GroundPlace draw(std::uint64_t piece, std::uint64_t pieces, Random& random) const;
-  // The same, but where `test` allows it: a few tries in the cell, then the cell's centre, which it allows.
+  // The same, but inside a cell as `test` weighs its points, and only where it allows. No point comes twice,
+  // however little of the cell is allowed.
   GroundPlace draw(std::uint64_t piece, std::uint64_t pieces, const PlacementTest& test,
                    Random& random) const;
 
  private:
   std::uint32_t cell_of(std::uint64_t piece, std::uint64_t pieces, Random& random) const;
-  GroundPlace point_in(std::uint32_t cell, double u, double v) const;
+  GroundPlace search(std::uint32_t cell, const PlacementTest& test, Random& random) const;
   const DensityField& field_;
   std::vector<std::uint32_t> cells_;  // with mass, along the curve
   std::vector<double> cumulative_;    // mass up to and with each
