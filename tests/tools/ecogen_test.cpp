@@ -260,6 +260,24 @@ TEST_F(Ecogen, AMixWithClustersIsSharedOutByTheClustersThatItIsPlantedBy) {
   }
 }
 
+// By itself the footprint is what the crown reaches when it is turned: one that leans reaches farther.
+TEST_F(Ecogen, TheCrownsReachCountsTurningAndLeaning) {
+  page_["types"].erase(1);
+  page_["types"][0].erase("tilt");
+  const auto box = TreeFile::open(file("a.stree"))->header().bounds;
+  const double x = std::max(std::abs(double{box.min.x}), std::abs(double{box.max.x})),
+               z = std::max(std::abs(double{box.min.z}), std::abs(double{box.max.z}));
+  // 200 in cells of 60 / 15 by 40 / 15 m, upright: the corner of the box just fits, or just does not.
+  const double fits = 40 / 15.0 / 2 / std::hypot(x, z);
+  page_["types"][0]["scale"] = 0.999 * fits;
+  EXPECT_EQ(run().err.find("larger than their cell"), std::string::npos);
+  page_["types"][0]["tilt"] = {{"pitch", 10}};
+  EXPECT_NE(run().err.find("200 of 200 are larger than their cell"), std::string::npos);
+  page_["types"][0].erase("tilt");
+  page_["types"][0]["scale"] = 1.001 * fits;
+  EXPECT_NE(run().err.find("200 of 200 are larger than their cell"), std::string::npos);
+}
+
 TEST_F(Ecogen, WhatIsPackedNeedsNoOtherFile) {
   ASSERT_EQ(run({"--pack", "--report", file("r.json")}).status, 0);
   const Ecosystem eco = load();

@@ -2,6 +2,7 @@
 
 #include "lib/analysis/ecosystem/arrange.h"
 #include "lib/analysis/ecosystem/block_trees.h"
+#include "lib/analysis/ecosystem/degrees.h"
 #include "lib/analysis/ecosystem/populate.h"
 #include "lib/analysis/ecosystem/spread.h"
 #include "lib/analysis/ecosystem/tilt.h"
@@ -42,9 +43,36 @@ std::unexpected<Error> in_file(Error error, const fs::path& document) {
   return std::unexpected(std::move(error));
 }
 
-double crown_radius(const FloatBox& box) {
+// Of the steepest triangle, however its cell is cut.
+SinCos steepest_slope(const Terrain& t) {
+  double up = 1;
+  const auto take = [&](const Double3& a, const Double3& b, const Double3& c) {
+    const Double3 n = cross(b - a, c - a);
+    if (const double size = length(n); size > 0) up = std::min(up, std::abs(n.y) / size);
+  };
+  for (std::uint32_t r = 1; r < t.rows; ++r)
+    for (std::uint32_t c = 1; c < t.columns; ++c) {
+      const Double3 p = t.vertex(c - 1, r - 1), q = t.vertex(c, r - 1), s = t.vertex(c - 1, r),
+                    u = t.vertex(c, r);
+      take(p, q, s), take(q, u, s), take(p, q, u), take(p, u, s);
+    }
+  return {std::sqrt(1 - up * up), up};
+}
+
+// How far from its foot the crown reaches, whichever way it is turned and however far it leans.
+double crown_radius(const FloatBox& box, const TypeSource& type, const Terrain& terrain) {
   if (box.empty()) return 0;
-  return std::max({std::abs(box.min.x), std::abs(box.max.x), std::abs(box.min.z), std::abs(box.max.z)});
+  const auto larger = [](float a, float b) { return std::max(std::abs(double{a}), std::abs(double{b})); };
+  const double x = larger(box.min.x, box.max.x), z = larger(box.min.z, box.max.z);
+  const double wide = std::sqrt(x * x + z * z), high = larger(box.min.y, box.max.y);
+  const auto most = [](const ValueRange& r) { return std::max(std::abs(r.min), std::abs(r.max)); };
+  const SinCos lean = type.tilt_to_ground
+                          ? steepest_slope(terrain)
+                          : sin_cos_degrees(std::min(most(type.pitch) + most(type.roll), 90.0));
+  // A point so wide and high reaches farthest when it lies level; up to there the farther it leans the
+  // farther.
+  if (lean.sin * wide >= lean.cos * high) return std::sqrt(wide * wide + high * high);
+  return wide * lean.cos + high * lean.sin;
 }
 
 Instance instance_of(const PlantedSource& p, const TypeSource& type, const TerrainGround& ground) {
@@ -142,7 +170,8 @@ class Builder {
       p.trunk_material = s.trunk_material, p.leaf_material = s.leaf_material, p.motion = s.motion;
       p.rules.slope = s.slope, p.rules.altitude = s.altitude, p.rules.distance = s.distance;
       p.rules.clusters = s.clusters;
-      p.footprint = s.crown_footprint ? crown_radius(built_.eco.types[i].bounds) : s.footprint;
+      p.footprint =
+          s.crown_footprint ? crown_radius(built_.eco.types[i].bounds, s, built_.eco.terrain) : s.footprint;
       p.spacing = s.spacing;
       p.avoid = s.avoid;
       p.fewer = s.fewer;
