@@ -278,6 +278,18 @@ TEST_F(Ecogen, TheCrownsReachCountsTurningAndLeaning) {
   EXPECT_NE(run().err.find("200 of 200 are larger than their cell"), std::string::npos);
 }
 
+TEST_F(Ecogen, ErrorsOfFilesNameTheirPlaceInThePage) {
+  page_["types"][0]["density"] = "none.png";
+  EXPECT_NE(refusal(3).find("types[0].density: "), std::string::npos);
+  page_["types"][1]["tree"] = "none.stree";
+  EXPECT_NE(refusal(3).find("types[1].tree: "), std::string::npos);
+  write_text(file("oak.glb"), "glTF");
+  page_["types"][1]["tree"] = "oak.glb";
+  const std::string mesh = refusal();
+  EXPECT_NE(mesh.find("oak.glb: types[1].tree: "), std::string::npos) << mesh;
+  EXPECT_NE(mesh.find("treeprep"), std::string::npos) << mesh;
+}
+
 TEST_F(Ecogen, WhatIsPackedNeedsNoOtherFile) {
   ASSERT_EQ(run({"--pack", "--report", file("r.json")}).status, 0);
   const Ecosystem eco = load();

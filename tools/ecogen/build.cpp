@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -40,6 +41,12 @@ Result<void> check_area(const Scene& scene, const TerrainGround& ground, const f
 // Errors from the libraries know places in the document, not its name.
 std::unexpected<Error> in_file(Error error, const fs::path& document) {
   if (error.file.empty()) error.file = document.string();
+  return std::unexpected(std::move(error));
+}
+
+// Errors of files know their file, not where the page names it.
+std::unexpected<Error> named_at(const std::string& place, Error error) {
+  error.what = fmt::format("{}: {}", place, error.what);
   return std::unexpected(std::move(error));
 }
 
@@ -123,7 +130,7 @@ class Builder {
     Stage stage = context_.stage("terrain");
     TerrainPlan plan = scene_.terrain;
     auto heights = inputs_.map(scene_.height_map);
-    if (!heights) return std::unexpected(heights.error());
+    if (!heights) return named_at("terrain.height_map", heights.error());
     plan.height_map = *heights;
     auto terrain = make_terrain(plan, random_.fork(stream_terrain));
     if (!terrain) return std::unexpected(terrain.error());
@@ -143,9 +150,15 @@ class Builder {
 
   Result<void> read_trees() {
     Stage stage = context_.stage("trees");
-    for (const TypeSource& source : scene_.types) {
+    for (std::size_t i = 0; i < scene_.types.size(); ++i) {
+      const TypeSource& source = scene_.types[i];
       auto type = read_type(source, context_);
-      if (!type) return std::unexpected(type.error());
+      if (!type) {
+        Error error = type.error();
+        if (const fs::path end = source.tree.extension(); end == ".glb" || end == ".gltf" || end == ".obj")
+          error.remedy = "make a tree of the mesh by treeprep, and name that";
+        return named_at(fmt::format("types[{}].tree", i), error);
+      }
       type->uri = source.tree.string();
       if (const auto range = static_cast<float>(options_.view_range); range > 0)
         type->view_range = type->view_range > 0 ? std::min(type->view_range, range) : range;
@@ -177,18 +190,18 @@ class Builder {
       p.fewer = s.fewer;
       for (const PlantedSource& planted : s.planted) p.manual.push_back(instance_of(planted, s, ground));
       tell_outside(p, ground);
-      const std::pair<const std::optional<MapSource>*, const ValueMap**> maps[] = {
-          {&s.scale_map, &p.scale_map},
-          {&s.density, &p.rules.density},
-          {&s.forbidden, &p.rules.forbidden},
-          {&s.distance_map, &p.rules.distance_to}};
-      for (const auto& [source, target] : maps) {
+      const std::tuple<const char*, const std::optional<MapSource>*, const ValueMap**> maps[] = {
+          {"scale_map", &s.scale_map, &p.scale_map},
+          {"density", &s.density, &p.rules.density},
+          {"forbidden", &s.forbidden, &p.rules.forbidden},
+          {"distance.map", &s.distance_map, &p.rules.distance_to}};
+      for (const auto& [key, source, target] : maps) {
         auto map = inputs_.map(*source);
-        if (!map) return std::unexpected(map.error());
+        if (!map) return named_at(fmt::format("types[{}].{}", i, key), map.error());
         *target = *map;
       }
       auto tint = inputs_.tint(s.tint_map);
-      if (!tint) return std::unexpected(tint.error());
+      if (!tint) return named_at(fmt::format("types[{}].tint_map", i), tint.error());
       p.tint_map = *tint;
       plans_.push_back(std::move(p));
     }
@@ -213,12 +226,12 @@ class Builder {
     for (std::size_t m = 0; m < scene_.mixes.size(); ++m) {
       const MixSource& mix = scene_.mixes[m];
       auto density = inputs_.map(mix.density);
-      if (!density) return std::unexpected(density.error());
+      if (!density) return named_at(fmt::format("mixes[{}].density", m), density.error());
       std::vector<const ValueMap*> shares;
       std::uint32_t largest = *density ? std::max((*density)->width, (*density)->height) : 0;
-      for (const MixSource::Part& part : mix.parts) {
-        auto share = inputs_.map(part.share);
-        if (!share) return std::unexpected(share.error());
+      for (std::size_t i = 0; i < mix.parts.size(); ++i) {
+        auto share = inputs_.map(mix.parts[i].share);
+        if (!share) return named_at(fmt::format("mixes[{}].parts[{}].share", m, i), share.error());
         shares.push_back(*share);
         largest = std::max({largest, (*share)->width, (*share)->height});
       }
