@@ -290,6 +290,34 @@ TEST_F(Ecogen, ErrorsOfFilesNameTheirPlaceInThePage) {
   EXPECT_NE(mesh.find("treeprep"), std::string::npos) << mesh;
 }
 
+TEST_F(Ecogen, TablesMayBeginWithAMarkAndNameAColumnOnce) {
+  page_["types"][0]["count"] = page_["types"][1]["count"] = 0;
+  write_text(file("t.csv"), "\xef\xbb\xbftype,x,z\na,1,2\n");
+  EXPECT_EQ(run({"--instances", file("t.csv")}).status, 0);
+  EXPECT_EQ(load().instance_count(), 1u);
+  write_text(file("t.csv"), "type,x,z,x\na,1,2,3\n");
+  const Outcome o = run({"--instances", file("t.csv")});
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.err.find("column 'x' is there twice"), std::string::npos) << o.err;
+}
+
+TEST_F(Ecogen, OptionsThatMeanNothingTogetherAreRefused) {
+  EXPECT_EQ(run_process({"ecogen", "--new", "--schema"}).status, 2);
+  ASSERT_EQ(run().status, 0);
+  const Outcome o = run_process({"treedump", file("out.eco"), file("out.eco"), "--diff", "--tolerance", "1"});
+  EXPECT_EQ(o.status, 2);
+  EXPECT_EQ(line_count(o.err), 1u) << o.err;
+}
+
+TEST_F(Ecogen, DiscsByHandThatOverlapAreWarnedOf) {
+  page_["types"][0]["spacing"] = 1;
+  page_["types"][0]["count"] = 1;
+  page_["types"][0]["instances"] = Json::parse(R"([{"x": 5, "z": 5}, {"x": 6, "z": 5}, {"x": 20, "z": 5}])");
+  const Outcome o = run();
+  EXPECT_EQ(o.status, 0);
+  EXPECT_NE(o.err.find("types[0] (a): 1 by hand overlap others by hand"), std::string::npos) << o.err;
+}
+
 TEST_F(Ecogen, WhatIsPackedNeedsNoOtherFile) {
   ASSERT_EQ(run({"--pack", "--report", file("r.json")}).status, 0);
   const Ecosystem eco = load();

@@ -282,6 +282,10 @@ class Builder {
                             std::to_string(plans_[t].manual.size()),
                             std::to_string(c.placed + plans_[t].manual.size()), std::to_string(c.crowded),
                             std::to_string(c.missing)});
+      if (c.overlapping > 0)
+        context_.warn(fmt::format(
+            "{}: {} by hand overlap others by hand at this spacing; move them, or lower spacing or scale",
+            plans_[t].name, c.overlapping));
       if (c.missing > 0)
         context_.warn(fmt::format("{}: {} of {} did not fit at this spacing", plans_[t].name, c.missing,
                                   plans_[t].count));

@@ -79,6 +79,8 @@ class TableReader {
   TableReader(const std::string& file, Scene& scene) : file_(file), scene_(scene) {}
 
   Result<void> read(std::string_view rest) {
+    constexpr std::string_view k_mark = "\xef\xbb\xbf";  // spreadsheets put it before UTF-8
+    if (rest.starts_with(k_mark)) rest.remove_prefix(k_mark.size());
     auto header = next_row(rest);
     if (!header) return wrong("a quote is never closed");
     if (auto known = read_header(*header); !known) return known;
@@ -108,6 +110,8 @@ class TableReader {
                      nearest.empty() ? "see docs/ecogen.md for their names"
                                      : fmt::format("did you mean '{}'?", nearest));
       }
+      if (std::find(at_.begin(), at_.end(), static_cast<std::size_t>(known - k_columns.begin())) != at_.end())
+        return wrong(fmt::format("column '{}' is there twice", name), "leave one");
       at_.push_back(static_cast<std::size_t>(known - k_columns.begin()));
     }
     for (const Column c : {c_type, c_x, c_z})

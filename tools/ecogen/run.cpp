@@ -128,6 +128,8 @@ Result<void> make(const Options& options, Context& context) {
 }  // namespace
 
 Result<void> run(const Options& options, Context& context) {
+  if (options.print_schema && options.print_template)
+    return fail(Fault::usage, "", "--new and --schema are asked for at once", "ask for one of them");
   if (options.print_schema || options.print_template)
     return context.write(options.output.empty() ? "-" : options.output,
                          options.print_schema ? k_schema : k_template);

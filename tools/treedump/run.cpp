@@ -118,6 +118,10 @@ Result<std::pair<File, File>> open_both(const DumpOptions& options) {
 
 Result<Difference> find_difference(const DumpOptions& options) {
   if (is_ecosystem(options.files[0]) && is_ecosystem(options.files[1])) {
+    if (options.tolerance > 0)
+      return fail(Fault::usage, "",
+                  "--tolerance does not work on ecosystems, whose sections are compared by bytes",
+                  "leave it out");
     const auto both = open_both<Container>(options);
     if (!both) return std::unexpected(both.error());
     return diff_containers(both->first, both->second);

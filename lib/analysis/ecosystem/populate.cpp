@@ -160,8 +160,11 @@ class Planter {
     for (std::size_t t = 0; t < types_.size(); ++t) {
       if (!(types_[t].spacing > 0)) continue;
       order.push_back(t);
-      for (const Instance& i : types_[t].manual)
-        spacing_.add({i.position.x, i.position.z, types_[t].spacing * i.scale});
+      for (const Instance& i : types_[t].manual) {
+        const Disc disc{i.position.x, i.position.z, types_[t].spacing * i.scale};
+        if (!spacing_.is_free(disc)) ++out_.types[t].overlapping;
+        spacing_.add(disc);
+      }
     }
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return types_[a].spacing * types_[a].scale.max > types_[b].spacing * types_[b].scale.max;

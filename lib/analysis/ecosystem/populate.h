@@ -49,9 +49,10 @@ struct TypePlan {
 };
 
 struct TypeCounts {
-  std::uint64_t placed = 0;   // random ones
-  std::uint64_t crowded = 0;  // reach out of their cell: no promise that they do not touch
-  std::uint64_t missing = 0;  // did not fit, with `fewer`
+  std::uint64_t placed = 0;       // random ones
+  std::uint64_t crowded = 0;      // reach out of their cell: no promise that they do not touch
+  std::uint64_t overlapping = 0;  // by hand, with spacing: discs that overlap one by hand before them
+  std::uint64_t missing = 0;      // did not fit, with `fewer`
 };
 
 struct Population {
