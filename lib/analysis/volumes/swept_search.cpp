@@ -1,5 +1,6 @@
 #include "lib/analysis/volumes/swept_search.h"
 
+#include "lib/analysis/volumes/frame.h"
 #include "lib/analysis/volumes/principal_axes.h"
 
 #include <algorithm>
@@ -51,6 +52,27 @@ std::vector<Axes> frames(const Axes& base) {
   return out;
 }
 
+// The edges of the hull among all pairs of so few points; for a lozenge a finer grid of turns.
+void add_starts(Swept kind, std::span<const Double3> points, const Axes& base, std::vector<Axes>& starts) {
+  constexpr std::size_t k_few = 12;
+  constexpr double k_turn = 0.2761;  // two thirds of tan(pi / 8): the middles of 27 cells
+  if (points.size() > k_few) return;
+  if (kind == Swept::lozenge) {
+    for (int i = 0; i < 81; ++i) {
+      const int k = i / 27;
+      const Axes across{base[(k + 1) % 3], base[(k + 2) % 3], base[k]};
+      starts.push_back(
+          turned(across, {(i % 3 - 1) * k_turn, (i / 3 % 3 - 1) * k_turn, (i / 9 % 3 - 1) * k_turn}));
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      if (points[i] != points[j]) starts.push_back(about(k_world_axes, points[j] - points[i]));
+    }
+  }
+}
+
 double cost(Swept kind, const SweptFit& fit) {
   return kind == Swept::line ? fit.rectangle.r : fit.volume();
 }
@@ -60,7 +82,9 @@ double cost(Swept kind, const SweptFit& fit) {
 SweptFit search_around(Swept kind, std::span<const Double3> points) {
   const Axes base = principal_axes(points).axes;
   std::vector<std::pair<double, Axes>> scouts;
-  for (const Axes& start : kind == Swept::lozenge ? frames(base) : directions(base)) {
+  std::vector<Axes> starts = kind == Swept::lozenge ? frames(base) : directions(base);
+  add_starts(kind, points, base, starts);
+  for (const Axes& start : starts) {
     const SweptFit fit = descend_around(kind, points, start, {k_rough_gap, k_rough_rounds});
     scouts.emplace_back(cost(kind, fit), fit.frame);
   }

@@ -1,7 +1,8 @@
 // swept_search: the least capsule, lozenge or line around points that descents from many frames find.
 //
 // Every frame of a fixed set, laid out from the principal frame, is tried with a rough descent over a few
-// points; the best half of them go on to the end over all points. Deterministic. What is found is the global
+// points; the best half of them (of a small hull all) go on to the end over all points. A dozen points or
+// fewer get more starts, as their volumes have few, deep valleys. Deterministic. What is found is the global
 // optimum nearly always (docs/volumes.md has figures); swept_bound.h proves how far from it it can be.
 #pragma once
 
