@@ -40,7 +40,7 @@ struct SignedModel {
   int before = 0;
 };
 
-inline constexpr std::uint64_t k_most_signed = std::uint64_t{1} << 36;
+inline constexpr std::uint64_t k_most_signed = std::uint64_t{1} << 40;
 
 class RangeCoder {
  public:

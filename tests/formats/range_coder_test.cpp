@@ -13,7 +13,7 @@ namespace {
 TEST(RangeCoder, WhatIsCodedComesBack) {
   Random random(3);
   std::vector<std::uint64_t> numbers{0, 1, 2, 3, (std::uint64_t{1} << 62) - 1, std::uint64_t{1} << 62};
-  std::vector<std::int64_t> differences{0, -1, 1, std::int64_t{1} << 40, -(std::int64_t{1} << 62)};
+  std::vector<std::int64_t> differences{0, -1, 1, std::int64_t{1} << 40, -(std::int64_t{1} << 40)};
   for (int i = 0; i < 5000; ++i) {
     const double size = random.uniform(0, 40);
     numbers.push_back(static_cast<std::uint64_t>(std::exp2(size)));
@@ -39,6 +39,17 @@ TEST(RangeCoder, WhatIsCodedComesBack) {
   code(in);
   EXPECT_TRUE(in.exhausted());
   EXPECT_FALSE(in.failed());
+}
+
+TEST(RangeCoder, DifferencesThatCouldOverflowSumsAreNoneThatAnEncoderWrites) {
+  RangeCoder out;
+  SignedModel model;
+  out.signed_number(model, std::int64_t{1} << 41);
+  const std::vector<std::uint8_t> bytes = out.finish();
+  RangeCoder in(bytes);
+  SignedModel again;
+  EXPECT_EQ(in.signed_number(again), std::int64_t{1} << 40);
+  EXPECT_TRUE(in.failed());
 }
 
 TEST(RangeCoder, SkewedBitsCostLittleMoreThanTheirEntropy) {
