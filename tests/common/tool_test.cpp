@@ -115,15 +115,6 @@ TEST_F(Tool, HelpAndVersionAnswerWhateverElseIsWrong) {
   EXPECT_EQ(o.out, "common_probe " COPSE_VERSION "\n");
 }
 
-TEST_F(Tool, VersionTakesLessThan15Milliseconds) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers are slow to start";
-#endif
-  double best = 1;
-  for (int i = 0; i < 20; ++i) best = std::min(best, probe({"--version"}).seconds);
-  EXPECT_LT(best, 0.015);
-}
-
 TEST_F(Tool, LimitsNamesThoseOfTheToolAndOfAllTools) {
   const std::string limits = probe({"--limits"}).out;
   EXPECT_NE(limits.find("levels of the probe"), std::string::npos);
@@ -311,7 +302,6 @@ TEST_F(Tool, TwoOutputsMayNotShareAName) {
 // --- depfiles, as make and ninja read them
 
 TEST_F(Tool, MakeReadsTheDepfileWhateverTheNames) {
-  if (shell("make --version").status != 0) GTEST_SKIP() << "make is not installed";
   write_text(file("in $x #1.obj"), "v 0 0 0\n");
   ASSERT_EQ(shell("cd %D && %P -q 'in $x #1.obj' -o out --depfile out.d").status, 0);
   write_text(file("Makefile"), "out:\n\t@echo rebuilt\ninclude out.d\n");
@@ -321,7 +311,6 @@ TEST_F(Tool, MakeReadsTheDepfileWhateverTheNames) {
 }
 
 TEST_F(Tool, NinjaReadsTheDepfileWhateverTheNames) {
-  if (shell("ninja --version").status != 0) GTEST_SKIP() << "ninja is not installed";
   write_text(file("in $x #1.obj"), "v 0 0 0\n");
   write_text(file("build.sh"),
              std::string(COPSE_BIN_DIR) + "/common_probe -q 'in $x #1.obj' -o out --depfile out.d\n");
@@ -367,7 +356,6 @@ TEST_F(Tool, TheBarAppearsAfterASecondAndIsClearedAtTheEnd) {
 TEST_F(Tool, JobsFollowTheCommandLineTheAffinityAndTheBatchSystem) {
   EXPECT_NE(probe({"-q", "--show", "-j", "3"}).out.find("jobs 3 "), std::string::npos);
   EXPECT_NE(probe({"-q", "--show"}, {"SLURM_CPUS_PER_TASK=1"}).out.find("jobs 1 "), std::string::npos);
-  if (shell("taskset --version").status != 0) GTEST_SKIP() << "taskset is not installed";
   EXPECT_NE(shell("taskset -c 0 %P -q --show").out.find("jobs 1 "), std::string::npos);
 }
 
