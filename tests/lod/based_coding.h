@@ -58,6 +58,16 @@ inline void expect_kept(const Spectrum& s, const Spectrum& d) {
   }
 }
 
+// Coded against its tree and read back: what must be kept is kept.
+inline void expect_round_trip(const Spectrum& s, const Tree& tree) {
+  const auto e = encode_spectrum(s, k_small, &tree);
+  ASSERT_TRUE(e.has_value());
+  EXPECT_TRUE(is_based(*e));
+  const auto d = decode_spectrum(e->bytes, "test", &tree);
+  ASSERT_TRUE(d.has_value()) << d.error().what;
+  expect_kept(s, *d);
+}
+
 // Bytes changed and cut off at random: refused, or a spectrum that fits together.
 inline void expect_harmless(const std::vector<std::uint8_t>& good, const Tree& tree, int mutants) {
   Random random(7);

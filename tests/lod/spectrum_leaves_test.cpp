@@ -16,13 +16,7 @@ Tree leafy(bool alpha, std::uint32_t leaves = 300) {
 TEST(SpectrumLeaves, LivesAreExactAndFullDetailIsTheTrees) {
   for (const bool alpha : {false, true}) {
     const Tree tree = leafy(alpha);
-    const Spectrum s = collapse_spectrum(tree);
-    const auto e = encode_spectrum(s, k_small, &tree);
-    ASSERT_TRUE(e.has_value());
-    EXPECT_TRUE(is_based(*e));
-    const auto d = decode_spectrum(e->bytes, "test", &tree);
-    ASSERT_TRUE(d.has_value()) << d.error().what;
-    expect_kept(s, *d);
+    expect_round_trip(collapse_spectrum(tree), tree);
   }
 }
 

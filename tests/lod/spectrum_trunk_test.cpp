@@ -12,12 +12,7 @@ TEST(SpectrumTrunk, LivesAreExactAndFullDetailIsTheTrees) {
     const Tree tree = stem_with_twigs(12, sides, 9);
     const Spectrum s = trunk_by_radii(tree);
     ASSERT_GT(s.steps(), 5u);
-    const auto e = encode_spectrum(s, k_small, &tree);
-    ASSERT_TRUE(e.has_value());
-    EXPECT_TRUE(is_based(*e));
-    const auto d = decode_spectrum(e->bytes, "test", &tree);
-    ASSERT_TRUE(d.has_value()) << d.error().what;
-    expect_kept(s, *d);
+    expect_round_trip(s, tree);
   }
 }
 

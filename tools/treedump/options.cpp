@@ -10,17 +10,16 @@
 namespace copse {
 
 ToolInfo treedump_info() {
-  return {
-      .name = "treedump",
-      .summary =
-          "looks inside .tree and .stree files: a summary, everything as JSON, the hierarchy, the geometry, "
-          "what is wrong with a file, or what differs between two",
-      .examples = {{"treedump oak.stree", "what is in the file, how large it is and what was left out"},
-                   {"treedump oak.stree --export oak.glb", "the geometry, for any viewer"},
-                   {"treedump oak.stree --verify -q && cp oak.stree game/",
-                    "copies a file only if it is sound"}},
-      .limits = {{"sections of a file", k_max_sections, "sections"},
-                 {"decoded size of a file, per stored byte", k_max_expansion, "bytes"}}};
+  return {.name = "treedump",
+          .summary =
+              "Looks inside .tree, .stree and .eco files: a summary, everything as JSON, the hierarchy, the "
+              "geometry, what is wrong with a file, or what differs between two.",
+          .examples = {{"treedump oak.stree", "what is in the file, how large it is and what was left out"},
+                       {"treedump oak.stree --export oak.glb", "the geometry, for any viewer"},
+                       {"treedump oak.stree --verify -q && cp oak.stree game/",
+                        "copies a file only if it is sound"}},
+          .limits = {{"sections of a file", k_max_sections, "sections"},
+                     {"decoded size of a file, per stored byte", k_max_expansion, "bytes"}}};
 }
 
 void add_options(CLI::App& app, DumpOptions& options) {

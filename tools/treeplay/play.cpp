@@ -110,18 +110,21 @@ Result<void> run_headless(const Scene& scene, const CameraPath& path, const Plan
 }  // namespace
 
 ToolInfo info() {
-  return {.name = "treeplay",
-          .summary =
-              "Draws a tree in a window, or into pictures without a display: its surface with materials, "
-              "its skeleton as lines and points, its groups of leaves as spheres.",
-          .examples = {{"treeplay oak.stree", "look at a tree; H shows the keys"},
-                       {"treeplay oak.stree --frames 'out/%04d.png' --path orbit --count 90 --size 1280x720",
-                        "once round it, into 90 pictures"},
-                       {"treeplay oak.stree --show skeleton --frames skeleton.png",
-                        "its hierarchy as lines and points"}},
-          .limits = {{"side of a picture", k_largest_side, "pixels"},
-                     {"frames of a run", k_most_frames, "frames"},
-                     {"samples a pixel", 256, "samples"}}};
+  return {
+      .name = "treeplay",
+      .summary =
+          "Draws a tree or a forest in a window, or into pictures without a display: surfaces with materials "
+          "at any level of detail, skeletons as lines and points, groups of leaves as spheres.",
+      .examples = {{"treeplay oak.stree", "look at a tree; H shows the keys"},
+                   {"treeplay oak.stree --frames 'out/%04d.png' --path orbit --count 90 --size 1280x720",
+                    "once round it, into 90 pictures"},
+                   {"treeplay oak.stree --show skeleton --frames skeleton.png",
+                    "its hierarchy as lines and points"},
+                   {"treeplay forest.eco --frames forest.png",
+                    "a forest, each tree at the level that its distance asks for"}},
+      .limits = {{"side of a picture", k_largest_side, "pixels"},
+                 {"frames of a run", k_most_frames, "frames"},
+                 {"samples a pixel", 256, "samples"}}};
 }
 
 namespace {
