@@ -1,6 +1,6 @@
 #include "lib/analysis/leaves/piece_scan.h"
 
-#include "lib/analysis/trunk/weld.h"
+#include "lib/analysis/surface/weld.h"
 #include "tests/leaves/shapes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "lib/analysis/leaves/piece_shape.h"
 
-#include "lib/analysis/trunk/weld.h"
+#include "lib/analysis/surface/weld.h"
 #include "tests/leaves/shapes.h"
 
 #include <numeric>

@@ -58,7 +58,7 @@ TEST(Structure, IncludesPointFromToolsToAnalysisAndRuntimeToFormats) {
 }
 
 TEST(Structure, ABreachOfTheIncludeDirectionIsFound) {
-  EXPECT_EQ(breaches("lib/runtime/x.cpp", {"\"lib/analysis/trunk/weld.h\""}).size(), 1u);
+  EXPECT_EQ(breaches("lib/runtime/x.cpp", {"\"lib/analysis/surface/weld.h\""}).size(), 1u);
   EXPECT_EQ(breaches("lib/formats/x.cpp", {"\"lib/formats/import/import.h\""}).size(), 1u);
   EXPECT_EQ(breaches("lib/analysis/x.cpp", {"\"lib/formats/mesh.h\"", "<vector>"}).size(), 0u);
 }

@@ -1,8 +1,8 @@
 // Hand-made tubes with their hierarchy, for the tests of this room.
 #pragma once
 
-#include "lib/analysis/trunk/hierarchy.h"
-#include "lib/analysis/trunk/trunk_mesh.h"
+#include "lib/analysis/rings/hierarchy.h"
+#include "lib/analysis/surface/trunk_mesh.h"
 #include "lib/formats/mesh.h"
 
 #include <cmath>

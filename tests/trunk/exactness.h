@@ -1,7 +1,7 @@
 // How exactly a recovered hierarchy is the true one, ring by ring.
 #pragma once
 
-#include "lib/analysis/trunk/hierarchy.h"
+#include "lib/analysis/rings/hierarchy.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #include "lib/analysis/trunk/fit.h"
 
-#include "lib/analysis/trunk/fork_rings.h"
-#include "welded_meshes.h"
+#include "lib/analysis/rings/fork_rings.h"
+#include "tests/trunk/welded_meshes.h"
 
 #include <gtest/gtest.h>
 

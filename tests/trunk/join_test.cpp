@@ -1,6 +1,6 @@
 #include "lib/analysis/trunk/join.h"
 
-#include "lib/analysis/trunk/taper.h"
+#include "lib/analysis/rings/taper.h"
 #include "tests/trunk/limb_maker.h"
 
 #include <gtest/gtest.h>

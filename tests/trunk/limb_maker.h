@@ -1,7 +1,7 @@
 // Limbs made by hand, for the tests of what is done with them.
 #pragma once
 
-#include "lib/analysis/trunk/limbs.h"
+#include "lib/analysis/rings/limbs.h"
 
 #include <vector>
 

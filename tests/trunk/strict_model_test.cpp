@@ -1,6 +1,6 @@
 #include "lib/analysis/trunk/strict_model.h"
 
-#include "lib/analysis/trunk/weld.h"
+#include "lib/analysis/surface/weld.h"
 
 #include <cmath>
 #include <numbers>

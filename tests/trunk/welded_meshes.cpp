@@ -1,4 +1,4 @@
-#include "welded_meshes.h"
+#include "tests/trunk/welded_meshes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // Welded surfaces with a known truth, for the tests of the trunk.
 #pragma once
 
-#include "lib/analysis/trunk/hierarchy.h"
-#include "lib/analysis/trunk/surface.h"
-#include "lib/analysis/trunk/trunk_mesh.h"
+#include "lib/analysis/rings/hierarchy.h"
+#include "lib/analysis/surface/surface.h"
+#include "lib/analysis/surface/trunk_mesh.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,11 +1,11 @@
 #include "lib/analysis/trunk/welded.h"
 
-#include "lib/analysis/trunk/components.h"
+#include "lib/analysis/surface/components.h"
 #include "lib/analysis/trunk/fit.h"
 #include "lib/analysis/trunk/recover.h"
 #include "lib/formats/import/import.h"
 #include "tests/trunk/exactness.h"
-#include "welded_meshes.h"
+#include "tests/trunk/welded_meshes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include "lib/analysis/leaves/classify.h"
 #include "lib/analysis/measure/cylinder_error.h"
-#include "lib/analysis/trunk/hierarchy.h"
-#include "lib/analysis/trunk/trunk_mesh.h"
+#include "lib/analysis/rings/hierarchy.h"
+#include "lib/analysis/surface/trunk_mesh.h"
 #include "lib/formats/report.h"
 #include "lib/formats/tree.h"
 

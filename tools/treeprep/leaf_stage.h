@@ -3,8 +3,8 @@
 
 #include "lib/analysis/leaves/classify.h"
 #include "lib/analysis/leaves/leaf_geometry.h"
+#include "lib/analysis/rings/hierarchy.h"
 #include "lib/analysis/tree/assemble.h"
-#include "lib/analysis/trunk/hierarchy.h"
 #include "tools/common/tool.h"
 #include "tools/treeprep/input.h"
 #include "tools/treeprep/options.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lib/analysis/leaves/classify.h"
-#include "lib/analysis/trunk/hierarchy.h"
+#include "lib/analysis/rings/hierarchy.h"
 #include "lib/formats/mesh.h"
 #include "lib/formats/report.h"
 #include "lib/formats/result.h"

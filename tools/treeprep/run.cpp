@@ -2,10 +2,10 @@
 
 #include "lib/analysis/leaves/classify.h"
 #include "lib/analysis/measure/cylinder_error.h"
+#include "lib/analysis/surface/trunk_mesh.h"
 #include "lib/analysis/tree/assemble.h"
 #include "lib/analysis/tree/lone_segment.h"
 #include "lib/analysis/trunk/recover.h"
-#include "lib/analysis/trunk/trunk_mesh.h"
 #include "lib/formats/tree_file.h"
 #include "lib/formats/tree_pack.h"
 #include "tools/treeprep/findings.h"

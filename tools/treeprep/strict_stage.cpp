@@ -1,7 +1,7 @@
 #include "tools/treeprep/strict_stage.h"
 
+#include "lib/analysis/surface/weld.h"
 #include "lib/analysis/trunk/strict_model.h"
-#include "lib/analysis/trunk/weld.h"
 
 #include <fmt/format.h>
 

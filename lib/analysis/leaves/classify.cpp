@@ -5,7 +5,7 @@
 #include "lib/analysis/leaves/piece_rules.h"
 #include "lib/analysis/leaves/piece_scan.h"
 #include "lib/analysis/leaves/pieces.h"
-#include "lib/analysis/trunk/weld.h"
+#include "lib/analysis/surface/weld.h"
 
 #include <algorithm>
 #include <optional>

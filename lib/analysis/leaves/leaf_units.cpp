@@ -1,6 +1,6 @@
 #include "lib/analysis/leaves/leaf_units.h"
 
-#include "lib/analysis/trunk/weld.h"
+#include "lib/analysis/surface/weld.h"
 
 #include <algorithm>
 #include <array>

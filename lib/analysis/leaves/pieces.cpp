@@ -1,6 +1,6 @@
 #include "lib/analysis/leaves/pieces.h"
 
-#include "lib/analysis/trunk/components.h"
+#include "lib/analysis/surface/components.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // How far the surface of a trunk is from the generalized cylinders that were recovered from it.
 #pragma once
 
-#include "lib/analysis/trunk/hierarchy.h"
-#include "lib/analysis/trunk/trunk_mesh.h"
+#include "lib/analysis/rings/hierarchy.h"
+#include "lib/analysis/surface/trunk_mesh.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 // A trunk in which no segment was found still needs one: every stored trunk triangle belongs to a segment.
 #pragma once
 
-#include "lib/analysis/trunk/hierarchy.h"
-#include "lib/analysis/trunk/trunk_mesh.h"
+#include "lib/analysis/rings/hierarchy.h"
+#include "lib/analysis/surface/trunk_mesh.h"
 
 namespace copse {
 

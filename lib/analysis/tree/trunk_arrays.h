@@ -2,8 +2,8 @@
 // diameter, and the triangles in segment order (digest 000, sections 3.2 and 4.1).
 #pragma once
 
-#include "lib/analysis/trunk/hierarchy.h"
-#include "lib/analysis/trunk/trunk_mesh.h"
+#include "lib/analysis/rings/hierarchy.h"
+#include "lib/analysis/surface/trunk_mesh.h"
 #include "lib/formats/tree.h"
 
 namespace copse {

@@ -1,9 +1,9 @@
 #include "lib/analysis/trunk/attach.h"
 
+#include "lib/analysis/rings/taper.h"
+#include "lib/analysis/surface/lists.h"
+#include "lib/analysis/surface/tolerances.h"
 #include "lib/analysis/trunk/arborescence.h"
-#include "lib/analysis/trunk/lists.h"
-#include "lib/analysis/trunk/taper.h"
-#include "lib/analysis/trunk/tolerances.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // attach: which limb grows from which.
 #pragma once
 
+#include "lib/analysis/rings/limbs.h"
 #include "lib/analysis/trunk/join.h"
-#include "lib/analysis/trunk/limbs.h"
 #include "lib/analysis/trunk/root.h"
 
 #include <cstdint>

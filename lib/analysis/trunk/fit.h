@@ -1,8 +1,8 @@
 // fit: how well a hierarchy stands for a surface, as one number to choose between methods by.
 #pragma once
 
-#include "lib/analysis/trunk/hierarchy.h"
-#include "lib/analysis/trunk/surface.h"
+#include "lib/analysis/rings/hierarchy.h"
+#include "lib/analysis/surface/surface.h"
 
 namespace copse {
 

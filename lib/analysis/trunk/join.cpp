@@ -1,8 +1,8 @@
 #include "lib/analysis/trunk/join.h"
 
-#include "lib/analysis/trunk/components.h"
-#include "lib/analysis/trunk/taper.h"
-#include "lib/analysis/trunk/tolerances.h"
+#include "lib/analysis/rings/taper.h"
+#include "lib/analysis/surface/components.h"
+#include "lib/analysis/surface/tolerances.h"
 
 #include <algorithm>
 #include <cmath>

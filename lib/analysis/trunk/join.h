@@ -5,7 +5,7 @@
 // cylinders share one radius" (digest 000, section 1.1).
 #pragma once
 
-#include "lib/analysis/trunk/limbs.h"
+#include "lib/analysis/rings/limbs.h"
 #include "lib/analysis/trunk/segment_tree.h"
 
 #include <array>

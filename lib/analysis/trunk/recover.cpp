@@ -1,13 +1,13 @@
 #include "lib/analysis/trunk/recover.h"
 
+#include "lib/analysis/rings/limbs.h"
+#include "lib/analysis/rings/ring_reader.h"
+#include "lib/analysis/surface/fans.h"
+#include "lib/analysis/surface/surfaces.h"
+#include "lib/analysis/surface/tolerances.h"
 #include "lib/analysis/trunk/attach.h"
-#include "lib/analysis/trunk/fans.h"
 #include "lib/analysis/trunk/join.h"
-#include "lib/analysis/trunk/limbs.h"
-#include "lib/analysis/trunk/ring_reader.h"
 #include "lib/analysis/trunk/root.h"
-#include "lib/analysis/trunk/surfaces.h"
-#include "lib/analysis/trunk/tolerances.h"
 #include "lib/analysis/trunk/welded.h"
 
 #include <algorithm>

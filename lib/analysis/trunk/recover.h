@@ -1,8 +1,8 @@
 // recover: the whole trunk, from triangles to one or more hierarchies of radii.
 #pragma once
 
-#include "lib/analysis/trunk/hierarchy.h"
-#include "lib/analysis/trunk/trunk_mesh.h"
+#include "lib/analysis/rings/hierarchy.h"
+#include "lib/analysis/surface/trunk_mesh.h"
 
 #include <cstdint>
 

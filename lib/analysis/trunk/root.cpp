@@ -1,7 +1,7 @@
 #include "lib/analysis/trunk/root.h"
 
-#include "lib/analysis/trunk/taper.h"
-#include "lib/analysis/trunk/tolerances.h"
+#include "lib/analysis/rings/taper.h"
+#include "lib/analysis/surface/tolerances.h"
 
 #include <algorithm>
 #include <limits>

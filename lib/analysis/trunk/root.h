@@ -1,8 +1,8 @@
 // root: at which end a limb begins.
 #pragma once
 
+#include "lib/analysis/rings/limbs.h"
 #include "lib/analysis/trunk/join.h"
-#include "lib/analysis/trunk/limbs.h"
 
 #include <cstdint>
 #include <span>

@@ -1,13 +1,13 @@
 #include "lib/analysis/trunk/welded.h"
 
-#include "lib/analysis/trunk/cage_axes.h"
+#include "lib/analysis/rings/cage_axes.h"
+#include "lib/analysis/rings/fork_rings.h"
+#include "lib/analysis/rings/implied_rings.h"
+#include "lib/analysis/skeleton/surface_skeleton.h"
+#include "lib/analysis/surface/reverse_subdivision.h"
+#include "lib/analysis/surface/surface.h"
+#include "lib/analysis/surface/welded_tolerances.h"
 #include "lib/analysis/trunk/fit.h"
-#include "lib/analysis/trunk/fork_rings.h"
-#include "lib/analysis/trunk/implied_rings.h"
-#include "lib/analysis/trunk/reverse_subdivision.h"
-#include "lib/analysis/trunk/surface.h"
-#include "lib/analysis/trunk/surface_skeleton.h"
-#include "lib/analysis/trunk/welded_tolerances.h"
 
 #include <utility>
 

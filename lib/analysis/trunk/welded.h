@@ -1,8 +1,8 @@
 // A connected surface without readable rings -> the part of the hierarchy that lies inside it.
 #pragma once
 
-#include "lib/analysis/trunk/hierarchy.h"
-#include "lib/analysis/trunk/trunk_mesh.h"
+#include "lib/analysis/rings/hierarchy.h"
+#include "lib/analysis/surface/trunk_mesh.h"
 
 #include <cstdint>
 #include <span>

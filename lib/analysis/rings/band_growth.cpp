@@ -1,0 +1,406 @@
+#include "lib/analysis/rings/band_growth.h"
+
+#include "lib/analysis/surface/welded_tolerances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace copse {
+
+namespace {
+
+constexpr std::size_t k_no_limit = std::numeric_limits<std::size_t>::max();
+
+// How long a front may be that a ring of `k` vertices has led to: forks join a few rings, not a hundred.
+constexpr std::size_t limit_after(std::size_t k) {
+  return 8 * k + 64;
+}
+
+double angle_between(const Double3& a, const Double3& b) {
+  return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+}  // namespace
+
+BandGrowth::BandGrowth(const Surface& surface, Bands& bands)
+    : surface_(surface),
+      bands_(bands),
+      triangles_(surface.triangles),
+      across_(surface.across),
+      claimed_(surface.triangles.size(), 0),
+      seen_(3 * surface.triangles.size(), 0),
+      mark_(surface.positions.size(), 0),
+      degree_(surface.positions.size(), 0) {
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    claimed_[t] = bands.band_of[t] != k_none;
+    for (const std::uint32_t v : triangles_[t]) ++degree_[v];
+  }
+}
+
+void BandGrowth::push(std::uint32_t read_triangle, std::uint32_t a, std::uint32_t b, std::size_t limit) {
+  const std::uint32_t n = beyond(read_triangle, a, b);
+  if (unread(n)) queue_.push_back({n, a, b, limit});
+}
+
+// Walks along the border of what is not read, turning about each of its vertices through the triangles that
+// touch it; false when the front is longer than the limit. Triangles across edges are partners, so walking is
+// a permutation of the border's edges and always comes back.
+bool BandGrowth::walk(const Edge& start) {
+  step_.ring.clear(), step_.next.clear(), step_.triangles.clear();
+  step_.near.clear(), step_.far.clear();
+  step_.corner = false;
+  ++walks_;
+  Edge e = start;
+  std::size_t steps = 0;
+  do {
+    seen_[3 * e.triangle + static_cast<std::size_t>(edge_between(triangles_[e.triangle], e.a, e.b))] = walks_;
+    step_.ring.push_back(e.a);
+    step_.near.push_back(e);
+    std::uint32_t t = e.triangle, x = third_corner(triangles_[t], e.a, e.b);
+    std::uint32_t n = beyond(t, e.b, x);
+    step_.corner |= !unread(n);
+    while (unread(n)) {
+      if (step_.next.empty() || step_.next.back() != x) step_.next.push_back(x);
+      step_.triangles.push_back(n);
+      const std::uint32_t y = third_corner(triangles_[n], e.b, x);
+      t = n;
+      n = beyond(n, e.b, y);
+      if (unread(n)) step_.far.push_back({t, x, y, 0});
+      x = y;
+      if (++steps > start.limit) return false;
+    }
+    e.triangle = t, e.a = e.b, e.b = x;
+    if (++steps > start.limit) return false;
+  } while (e.triangle != start.triangle || e.a != start.a || e.b != start.b);
+  if (step_.next.size() > 1 && step_.next.front() == step_.next.back()) step_.next.pop_back();
+  return true;
+}
+
+bool BandGrowth::is_simple(std::span<const std::uint32_t> ring) {
+  for (const std::uint32_t v : ring) {
+    if (mark_[v] == stamp_) return false;
+    mark_[v] = stamp_;
+  }
+  return true;
+}
+
+// Whether the walked step is a band: two simple cycles without a common vertex, or a cycle and a point.
+bool BandGrowth::is_strip() {
+  if (step_.corner || step_.ring.size() < 3 || step_.next.empty() || step_.next.size() == 2) return false;
+  if (step_.next.size() > 1 && step_.far.size() != step_.next.size()) return false;
+  ++stamp_;
+  return is_simple(step_.ring) && is_simple(step_.next);
+}
+
+// Whether the walked step goes along a limb rather than across a plate.
+bool BandGrowth::is_gentle() const {
+  const RingCircle a = ring_circle(surface_.positions, step_.ring);
+  const RingCircle b = ring_circle(surface_.positions, step_.next);
+  return std::abs(a.radius - b.radius) <= distance(a.centre, b.centre);
+}
+
+void BandGrowth::commit() {
+  bands_.add(step_.ring, step_.next, step_.triangles);
+  for (const std::uint32_t t : step_.triangles) claimed_[t] = 1;
+  committed_at_ = walks_;
+  for (const Edge& e : step_.far) push(e.triangle, e.a, e.b, limit_after(step_.next.size()));
+}
+
+// Whether the walked front is a border of the surface, or no longer than the longest ring that has led to it.
+// Where limbs share vertices, what is left of their rings is no longer than they are; where a front runs
+// round a hole that a limb sits in, it is.
+bool BandGrowth::is_expected() const {
+  std::size_t longest = 0, borders = 0;
+  for (const Edge& e : step_.near) {
+    const std::uint32_t behind =
+        across_[e.triangle][static_cast<std::size_t>(edge_between(triangles_[e.triangle], e.a, e.b))];
+    borders += behind == k_none;
+    if (behind >= bands_.band_of.size()) continue;
+    const std::uint32_t band = bands_.band_of[behind];
+    longest = std::max({longest, bands_.ring(2 * band).size(), bands_.ring(2 * band + 1).size()});
+  }
+  return borders == step_.ring.size() || step_.ring.size() <= longest;
+}
+
+void BandGrowth::read_regular() {
+  while (!queue_.empty()) {
+    const Edge e = queue_.front();
+    queue_.pop_front();
+    if (!unread(e.triangle)) continue;
+    const auto edge = static_cast<std::size_t>(edge_between(triangles_[e.triangle], e.a, e.b));
+    if (seen_[3 * e.triangle + edge] > committed_at_) continue;  // nothing has changed since
+    if (!walk(e) || !is_strip()) continue;
+    const double k = static_cast<double>(step_.ring.size()), l = static_cast<double>(step_.next.size());
+    if ((k == l || l == 1) && is_expected()) {
+      commit();
+    } else if (is_gentle()) {
+      parked_.push({l == 1 ? 0 : std::abs(std::log(k / l)), serial_++, e});
+    }
+  }
+}
+
+void BandGrowth::run(bool change) {
+  read_regular();
+  while (change && !parked_.empty()) {
+    const Edge e = parked_.top().edge;
+    parked_.pop();
+    if (!unread(e.triangle) || !walk(e) || !is_strip() || !is_gentle()) continue;
+    commit();
+    read_regular();
+  }
+}
+
+void BandGrowth::start_at_borders() {
+  ++walks_;
+  for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
+    for (std::size_t e = 0; e < 3; ++e) {
+      if (!unread(t) || across_[t][e] != k_none || seen_[3 * t + e] != 0) continue;
+      const Edge start{t, triangles_[t][(e + 1) % 3], triangles_[t][e], k_no_limit};
+      walk(start);  // marks the whole border as seen
+      queue_.push_back(start);
+    }
+  }
+  committed_at_ = walks_;
+}
+
+// The triangles round a vertex in order, when they close and none is read.
+bool BandGrowth::collect_fan(std::uint32_t v, std::uint32_t start, Fan& fan) {
+  fan.link.clear(), fan.triangles.clear();
+  fan.angle = 0;
+  std::uint32_t t = start, x = third_corner(triangles_[t], v,
+                                            v == triangles_[t][0] ? triangles_[t][1] : triangles_[t][0]);
+  do {
+    const std::uint32_t y = third_corner(triangles_[t], v, x);
+    fan.link.push_back(x);
+    fan.triangles.push_back(t);
+    const Double3 p = surface_.positions[v];
+    fan.angle += angle_between(surface_.positions[x] - p, surface_.positions[y] - p);
+    x = y;
+    t = beyond(t, v, x);
+    if (!unread(t)) return false;
+  } while (t != start);
+  ++stamp_;
+  return fan.link.size() >= 3 && fan.link.size() == degree_[v] && is_simple(fan.link);
+}
+
+// Whether rings of the fan's size follow behind it. Nothing stays read.
+bool BandGrowth::continues_behind(const Fan& fan, int rings) {
+  std::vector<std::uint32_t> tried = fan.triangles;
+  for (const std::uint32_t t : tried) claimed_[t] = 1;
+  const std::size_t k = fan.link.size();
+  const std::uint32_t n = beyond(fan.triangles[0], fan.link[0], fan.link[1]);
+  Edge e{n, fan.link[0], fan.link[1], limit_after(k)};
+  bool good = unread(n);
+  for (int i = 0; good && i < rings; ++i) {
+    good = walk(e) && step_.ring.size() == k && step_.next.size() == k && is_strip() && is_gentle();
+    if (!good) break;
+    for (const std::uint32_t t : step_.triangles) claimed_[t] = 1;
+    tried.insert(tried.end(), step_.triangles.begin(), step_.triangles.end());
+    const Edge far = step_.far[0];
+    e = {beyond(far.triangle, far.a, far.b), far.a, far.b, limit_after(k)};
+    good = unread(e.triangle) || i + 1 == rings;
+  }
+  for (const std::uint32_t t : tried) claimed_[t] = 0;
+  return good;
+}
+
+bool BandGrowth::is_point(std::uint32_t v, const Fan& fan, Points which) {
+  if (fan.angle <= k_point_angle) return which == Points::all || continues_behind(fan, 2);
+  // The ring behind the link has as many vertices as the link when the link's have five triangles on average.
+  std::uint64_t degrees = 0;
+  for (const std::uint32_t x : fan.link) degrees += degree_[x];
+  return degree_[v] == fan.link.size() && degrees == 5 * fan.link.size() && continues_behind(fan, 2);
+}
+
+void BandGrowth::read_fan(std::uint32_t v, const Fan& fan) {
+  bands_.add(fan.link, std::span(&v, 1), fan.triangles);
+  for (const std::uint32_t t : fan.triangles) claimed_[t] = 1;
+  for (std::size_t i = 0; i < fan.link.size(); ++i) {
+    push(fan.triangles[i], fan.link[i], fan.link[(i + 1) % fan.link.size()], limit_after(fan.link.size()));
+  }
+  committed_at_ = walks_;
+}
+
+// The first triangle that is not read at each vertex.
+std::vector<std::uint32_t> BandGrowth::first_unread() const {
+  std::vector<std::uint32_t> first(surface_.positions.size(), k_none);
+  for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
+    if (!unread(t)) continue;
+    for (const std::uint32_t v : triangles_[t]) first[v] = std::min(first[v], t);
+  }
+  return first;
+}
+
+void BandGrowth::start_at_points(Points which) {
+  const std::vector<std::uint32_t> first = first_unread();
+  Fan fan;
+  for (std::uint32_t v = 0; v < first.size(); ++v) {
+    if (unread(first[v]) && collect_fan(v, first[v], fan) && is_point(v, fan, which)) read_fan(v, fan);
+  }
+}
+
+void BandGrowth::close_fans() {
+  const std::vector<std::uint32_t> first = first_unread();
+  Fan fan;
+  for (std::uint32_t v = 0; v < first.size(); ++v) {
+    if (!unread(first[v]) || !collect_fan(v, first[v], fan)) continue;
+    std::size_t bordered = 0;
+    std::uint32_t band = k_none;
+    bool one_band = true;
+    for (std::size_t i = 0; i < fan.link.size(); ++i) {
+      const std::uint32_t n = beyond(fan.triangles[i], fan.link[i], fan.link[(i + 1) % fan.link.size()]);
+      if (n >= bands_.band_of.size() || bands_.band_of[n] == k_none) continue;
+      one_band &= band == k_none || band == bands_.band_of[n];
+      band = bands_.band_of[n];
+      ++bordered;
+    }
+    if (!one_band || 2 * bordered < fan.link.size()) continue;
+    // Of two points at a fork each has half of the ring below; the corner of a box has less.
+    const std::size_t ring = std::max(bands_.ring(2 * band).size(), bands_.ring(2 * band + 1).size());
+    if (2 * bordered >= ring) read_fan(v, fan);
+  }
+}
+
+void BandGrowth::start_at_bands(std::uint32_t first) {
+  for (std::uint32_t i = bands_.first_triangle[first]; i < bands_.triangles.size(); ++i) {
+    claimed_[bands_.triangles[i]] = 1;
+  }
+  for (std::uint32_t b = first; b < bands_.count(); ++b) {
+    const std::size_t k = bands_.ring(2 * b).size() + bands_.ring(2 * b + 1).size();
+    for (std::uint32_t i = bands_.first_triangle[b]; i < bands_.first_triangle[b + 1]; ++i) {
+      const Triangle t = triangles_[bands_.triangles[i]];
+      for (std::size_t e = 0; e < 3; ++e) push(bands_.triangles[i], t[e], t[(e + 1) % 3], limit_after(k));
+    }
+  }
+  committed_at_ = walks_;
+}
+
+// A polygon's corner with the side that follows it, and the band across that side; k_none where there is
+// none.
+struct Corner {
+  std::uint32_t vertex = 0, band = k_none;
+};
+
+// Cuts the corner with the shortest diagonal until a triangle is left. Where the corner's two sides lie on
+// one band they are part of its ring, and a triangle there would close what the next band must run through.
+static std::vector<Triangle> fill_polygon(std::span<const Double3> positions, std::vector<Corner> ring) {
+  std::vector<Triangle> triangles;
+  while (ring.size() >= 3) {
+    const std::size_t n = ring.size();
+    std::size_t best = 0;
+    std::pair<bool, double> least{true, std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < n && n > 3; ++i) {
+      const Corner &last = ring[(i + n - 1) % n], &next = ring[(i + 1) % n];
+      const bool on_ring = last.band != k_none && last.band == ring[i].band;
+      const std::pair cost(on_ring, distance(positions[last.vertex], positions[next.vertex]));
+      if (cost < least) least = cost, best = i;
+    }
+    const std::size_t last = (best + n - 1) % n;
+    triangles.push_back({ring[last].vertex, ring[best].vertex, ring[(best + 1) % n].vertex});
+    ring[last].band = k_none;
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(best));
+    if (n == 3) break;
+  }
+  return triangles;
+}
+
+void BandGrowth::fill(std::uint32_t ring) {
+  const std::uint32_t band = ring / 2;
+  const std::vector<std::uint32_t> polygon(bands_.ring(ring).begin(), bands_.ring(ring).end());
+  struct Side {
+    std::uint32_t a, b, inside, outside;
+  };
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const std::uint32_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    for (std::uint32_t j = bands_.first_triangle[band]; j < bands_.first_triangle[band + 1]; ++j) {
+      const std::uint32_t t = bands_.triangles[j];
+      if (std::ranges::count(triangles_[t], a) == 0 || std::ranges::count(triangles_[t], b) == 0) continue;
+      sides.push_back({a, b, t, beyond(t, a, b)});
+      break;
+    }
+  }
+  std::vector<Corner> corners;
+  for (const std::uint32_t v : polygon) corners.push_back({v, k_none});
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    for (const Side& s : sides) {
+      if (s.a == polygon[i] && s.outside < bands_.band_of.size()) corners[i].band = bands_.band_of[s.outside];
+    }
+  }
+  const auto first = static_cast<std::uint32_t>(triangles_.size());
+  for (const Triangle& t : fill_polygon(surface_.positions, corners)) {
+    triangles_.push_back(t);
+    across_.push_back({k_none, k_none, k_none});
+    claimed_.push_back(0);
+    seen_.insert(seen_.end(), 3, 0);
+  }
+  const auto holds = [&](std::uint32_t t, std::uint32_t a, std::uint32_t b) {
+    return std::ranges::count(triangles_[t], a) != 0 && std::ranges::count(triangles_[t], b) != 0;
+  };
+  for (std::uint32_t t = first; t < triangles_.size(); ++t) {
+    for (std::size_t e = 0; e < 3; ++e) {
+      const std::uint32_t a = triangles_[t][e], b = triangles_[t][(e + 1) % 3];
+      for (std::uint32_t u = first; u < triangles_.size(); ++u) {
+        if (u != t && holds(u, a, b)) across_[t][e] = u;
+      }
+      for (const Side& s : sides) {
+        if (!((s.a == a && s.b == b) || (s.a == b && s.b == a))) continue;
+        across_[t][e] = s.outside;
+        if (s.outside == k_none) continue;
+        beyond(s.outside, a, b) = t;
+        beyond(s.inside, a, b) = k_none;
+      }
+    }
+  }
+  for (std::uint32_t t = first; t < triangles_.size(); ++t) {
+    for (std::size_t e = 0; e < 3; ++e) {
+      if (!unread(across_[t][e])) {
+        queue_.push_back({t, triangles_[t][e], triangles_[t][(e + 1) % 3], limit_after(8 * polygon.size())});
+      }
+    }
+  }
+}
+
+// The share of a ring's edges that have something unread on their far side; 0 for rings on a border.
+double BandGrowth::open_share(std::uint32_t ring) {
+  const std::uint32_t band = ring / 2;
+  ++stamp_;
+  is_simple(bands_.ring(ring));  // marks its vertices
+  std::size_t open = 0, border = 0;
+  for (std::uint32_t i = bands_.first_triangle[band]; i < bands_.first_triangle[band + 1]; ++i) {
+    const std::uint32_t t = bands_.triangles[i];
+    for (std::size_t e = 0; e < 3; ++e) {
+      if (mark_[triangles_[t][e]] != stamp_ || mark_[triangles_[t][(e + 1) % 3]] != stamp_) continue;
+      open += unread(across_[t][e]), border += across_[t][e] == k_none;
+    }
+  }
+  return border > 0 ? 0 : static_cast<double>(open) / static_cast<double>(bands_.ring(ring).size());
+}
+
+void BandGrowth::fill_collars() {
+  // Where a limb sits in another one, the hole for it and the rings of that other one are open in part. The
+  // hole is so at its sides alone.
+  struct Collar {
+    double open, radius;
+    std::uint32_t ring;
+    auto operator<=>(const Collar&) const = default;
+  };
+  std::vector<Collar> collars;
+  for (std::uint32_t r = 0; r < 2 * bands_.count(); ++r) {
+    const std::size_t k = bands_.ring(r).size();
+    if (k < 3 || k > k_widest_collar) continue;
+    const double open = open_share(r);
+    if (open > 0) collars.push_back({open, ring_circle(surface_.positions, bands_.ring(r)).radius, r});
+  }
+  std::ranges::sort(collars);
+  for (const Collar& c : collars) {
+    if (open_share(c.ring) == 0) continue;  // filling another one has led past it
+    fill(c.ring);
+    committed_at_ = walks_;
+    read_regular();
+  }
+}
+
+}  // namespace copse

@@ -1,0 +1,108 @@
+// band_growth: reads bands one after the other, from the ends of a surface inward.
+//
+// A front is a border of the part that is not yet read. The triangles that touch it form its next band
+// exactly when they make a closed strip whose far side is again a simple cycle. On a tube of rings that is
+// always so, however its quads are cut and however they are twisted; at a fork it is not, so a front waits
+// there until the fronts of the other limbs have arrived: what is then left of their borders is the ring that
+// the limbs grow from. (The thesis, digest 000 section 1.3, walks up from the root, where a fork whose rings
+// share vertices cannot be told from one wide ring; walking down from the tips, it can.)
+#pragma once
+
+#include "lib/analysis/surface/bands.h"
+#include "lib/analysis/surface/surface.h"
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <queue>
+#include <span>
+#include <vector>
+
+namespace copse {
+
+class BandGrowth {
+ public:
+  // Both must outlive this; `bands.band_of` has one entry a triangle.
+  BandGrowth(const Surface& surface, Bands& bands);
+
+  // Fronts: the borders of the surface, and the rings round pointed ends (cones steeper than
+  // k_point_angle, and blunter ones behind which two more rings of the same size follow).
+  void start_at_borders();
+  // A sharp vertex may be a bend of a thin limb: those that rings follow first.
+  enum class Points : std::uint8_t { followed_by_rings, all };
+  void start_at_points(Points which);
+  // Reads fans round a vertex of which half or more is bordered by one band: blunt points, and caps.
+  void close_fans();
+  // Fronts: the rings of bands first .. count() - 1, which another method has found.
+  void start_at_bands(std::uint32_t first);
+
+  // Reads every band that keeps the number of vertices from ring to ring; then, if `change` says so, also
+  // those that change it, or start from a front that is longer than the rings that led to it, on a cone of at
+  // most 45 degrees: those that change it least first.
+  void run(bool change);
+
+  // Closes the holes that are left where limbs were cut into others, the least open and small ones first,
+  // with triangles that stand for the missing surface, and reads on from there.
+  void fill_collars();
+
+ private:
+  // An edge a -> b of a triangle that is not read; its other side is read or a border. `limit`: a front that
+  // is longer is not walked to its end. It grows with the ring that led here, which keeps the whole linear.
+  struct Edge {
+    std::uint32_t triangle = 0, a = 0, b = 0;
+    std::size_t limit = 0;
+  };
+  // The front through an edge, and what touches it.
+  struct Step {
+    std::vector<std::uint32_t> ring, next, triangles;
+    std::vector<Edge> near;  // the edges of `ring` with their triangles
+    std::vector<Edge> far;   // the edges of `next` with their triangles, far[i] from next[i] on
+    bool corner = false;     // a triangle lies in a corner of the front: no strip
+  };
+  struct Parked {
+    double change = 0;
+    std::uint32_t serial = 0;
+    Edge edge;
+    bool operator>(const Parked& o) const {
+      return change != o.change ? change > o.change : serial > o.serial;
+    }
+  };
+  struct Fan {
+    std::vector<std::uint32_t> link, triangles;
+    double angle = 0;
+  };
+
+  bool unread(std::uint32_t t) const { return t != k_none && claimed_[t] == 0; }
+  std::uint32_t& beyond(std::uint32_t t, std::uint32_t a, std::uint32_t b) {
+    return across_[t][static_cast<std::size_t>(edge_between(triangles_[t], a, b))];
+  }
+  void push(std::uint32_t read_triangle, std::uint32_t a, std::uint32_t b, std::size_t limit);
+  bool walk(const Edge& start);
+  bool is_strip();
+  bool is_simple(std::span<const std::uint32_t> ring);
+  bool is_expected() const;
+  bool is_gentle() const;
+  void commit();
+  void read_regular();
+  bool collect_fan(std::uint32_t v, std::uint32_t t, Fan& fan);
+  bool is_point(std::uint32_t v, const Fan& fan, Points which);
+  void read_fan(std::uint32_t v, const Fan& fan);
+  std::vector<std::uint32_t> first_unread() const;
+  bool continues_behind(const Fan& fan, int rings);
+  double open_share(std::uint32_t ring);
+  void fill(std::uint32_t ring);
+
+  const Surface& surface_;
+  Bands& bands_;
+  std::vector<Triangle> triangles_, across_;  // of the surface, then the stand-ins
+  std::vector<std::uint8_t> claimed_;
+  std::vector<std::uint32_t> seen_;    // one an edge of each triangle: the walk that last passed it
+  std::vector<std::uint32_t> mark_;    // one a vertex
+  std::vector<std::uint32_t> degree_;  // one a vertex: triangles that meet there
+  std::uint32_t walks_ = 0, committed_at_ = 0, stamp_ = 0, serial_ = 0;
+  std::deque<Edge> queue_;
+  std::priority_queue<Parked, std::vector<Parked>, std::greater<>> parked_;
+  Step step_;
+};
+
+}  // namespace copse

@@ -1,0 +1,182 @@
+#include "lib/analysis/rings/ring_starts.h"
+
+#include "lib/analysis/surface/components.h"
+#include "lib/analysis/surface/tolerances.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace copse {
+
+RingStarts::RingStarts(const TrunkMesh& mesh, const Fans& fans)
+    : mesh_(mesh), fans_(fans), local_(mesh.triangles.size()) {}
+
+void RingStarts::sides_at(std::uint32_t vertex) {
+  sides_.clear();
+  for (const std::uint32_t t : fans_.of(vertex)) {
+    for (const std::uint32_t v : mesh_.triangles[t]) {
+      if (v != vertex) sides_.push_back({v, t});
+    }
+  }
+  std::ranges::sort(sides_);
+}
+
+std::array<std::uint32_t, 2> RingStarts::boundary_neighbours(std::uint32_t vertex) {
+  sides_at(vertex);
+  std::array<std::uint32_t, 2> found{k_none, k_none};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    const bool alone = (i == 0 || sides_[i - 1].neighbour != sides_[i].neighbour) &&
+                       (i + 1 == sides_.size() || sides_[i + 1].neighbour != sides_[i].neighbour);
+    if (!alone) continue;
+    if (count == 2) return {k_none, k_none};
+    found[count++] = sides_[i].neighbour;
+  }
+  return count == 2 ? found : std::array<std::uint32_t, 2>{k_none, k_none};
+}
+
+std::uint32_t RingStarts::first_on_boundary(std::span<const std::uint32_t> vertices) {
+  for (const std::uint32_t v : vertices) {
+    if (boundary_neighbours(v)[0] != k_none) return v;
+  }
+  return k_none;
+}
+
+RingStarts::Ring RingStarts::loop_through(std::uint32_t vertex) {
+  Ring loop;
+  std::uint32_t previous = k_none, current = vertex;
+  do {
+    const auto [a, b] = boundary_neighbours(current);
+    if (a == k_none) return {};  // loops touch here
+    loop.push_back(current);
+    const std::uint32_t next = a == previous ? b : a;
+    previous = current;
+    current = next;
+  } while (current != vertex);
+  return loop;
+}
+
+std::vector<RingStarts::Ring> RingStarts::loops(std::span<const std::uint32_t> vertices) {
+  std::vector<Ring> found;
+  std::vector<std::uint32_t> seen;
+  for (const std::uint32_t v : vertices) {
+    if (boundary_neighbours(v)[0] == k_none) continue;
+    seen.push_back(v);
+  }
+  // Every loop is found once from each of its vertices; keep it at the lowest.
+  std::vector<std::uint8_t> done(seen.size(), 0);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (done[i]) continue;
+    Ring loop = loop_through(seen[i]);
+    for (const std::uint32_t v : loop) {
+      done[static_cast<std::size_t>(std::ranges::lower_bound(seen, v) - seen.begin())] = 1;
+    }
+    if (!loop.empty()) found.push_back(std::move(loop));
+  }
+  return found;
+}
+
+// A tube of k-rings that starts at an apex: the k vertices round it have k triangles of the apex, two each,
+// and the band to the next ring, 3k corners between them; or the same fan again (two apexes), or a lid (k - 2
+// triangles, all three corners on the ring).
+bool RingStarts::may_be_apex(std::uint32_t vertex) const {
+  const std::size_t k = fans_.of(vertex).size();
+  std::size_t corners = 0;  // at the vertices of the link, each counted from both its fan triangles
+  for (const std::uint32_t t : fans_.of(vertex)) {
+    for (const std::uint32_t v : mesh_.triangles[t]) {
+      if (v != vertex) corners += fans_.of(v).size();
+    }
+  }
+  return k >= 3 && (corners == 2 * 5 * k || corners == 2 * 4 * k || corners + 12 == 2 * 5 * k);
+}
+
+Double3 RingStarts::normal(std::uint32_t triangle) const {
+  const auto [a, b, c] = mesh_.triangles[triangle];
+  return normalized(cross(normalized(mesh_.positions[b] - mesh_.positions[a]),
+                          normalized(mesh_.positions[c] - mesh_.positions[a])),
+                    {0, 0, 0});
+}
+
+RingStarts::Ring RingStarts::rim(std::span<const std::array<std::uint32_t, 2>> edges,
+                                 std::size_t triangles) const {
+  // The rim of a disc without inner vertices has two edges more than the disc has triangles.
+  if (edges.size() != triangles + 2) return {};
+  std::vector<std::array<std::uint32_t, 2>> ends;  // (vertex, the other end)
+  for (const auto& [a, b] : edges) ends.push_back({a, b}), ends.push_back({b, a});
+  std::ranges::sort(ends);
+  for (std::size_t i = 0; i < ends.size(); i += 2) {
+    if (ends[i][0] != ends[i + 1][0] || (i > 0 && ends[i - 1][0] == ends[i][0])) return {};
+  }
+  Ring ring;
+  std::uint32_t previous = k_none, current = ends[0][0];
+  do {
+    ring.push_back(current);
+    const auto at = std::ranges::lower_bound(ends, std::array<std::uint32_t, 2>{current, 0});
+    const std::uint32_t next = (*at)[1] == previous ? (*(at + 1))[1] : (*at)[1];
+    previous = current;
+    current = next;
+  } while (current != ends[0][0] && ring.size() <= edges.size());
+  return ring.size() == edges.size() ? ring : Ring{};
+}
+
+std::vector<RingStarts::Ring> RingStarts::lids(std::span<const std::uint32_t> triangles, double smooth) {
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) local_[triangles[i]] = i;
+  // Edges between exactly two triangles, found from their lower end; smooth ones join their triangles.
+  UnionFind patches(triangles.size());
+  struct Crease {
+    std::uint32_t patch;
+    std::array<std::uint32_t, 2> edge;
+  };
+  std::vector<std::array<std::uint32_t, 4>> edges;  // two vertices, two local triangles
+  for (const std::uint32_t t : triangles) {
+    for (const std::uint32_t v : mesh_.triangles[t]) {
+      if (fans_.of(v).front() != t) continue;  // visit each vertex once: from its first triangle
+      sides_at(v);
+      for (std::size_t i = 0; i + 1 < sides_.size(); ++i) {
+        const Side &a = sides_[i], &b = sides_[i + 1];
+        if (a.neighbour != b.neighbour || a.neighbour < v) continue;
+        edges.push_back({v, a.neighbour, local_[a.triangle], local_[b.triangle]});
+      }
+    }
+  }
+  for (const auto& e : edges) {
+    // Winding may be inconsistent: a fold by more than a right angle counts as its supplement.
+    if (std::abs(dot(normal(triangles[e[2]]), normal(triangles[e[3]]))) > smooth) {
+      patches.unite(e[2], e[3]);
+    }
+  }
+  std::vector<Crease> creases;
+  for (const auto& e : edges) {
+    const std::uint32_t a = patches.find(e[2]), b = patches.find(e[3]);
+    if (a == b) continue;
+    creases.push_back({a, {e[0], e[1]}});
+    creases.push_back({b, {e[0], e[1]}});
+  }
+  std::ranges::stable_sort(creases, {}, &Crease::patch);
+  std::vector<std::uint32_t> size(triangles.size(), 0);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) ++size[patches.find(i)];
+  std::vector<Ring> rims;
+  std::vector<std::array<std::uint32_t, 2>> rim_edges;
+  for (std::size_t i = 0; i < creases.size();) {
+    const std::uint32_t patch = creases[i].patch;
+    rim_edges.clear();
+    for (; i < creases.size() && creases[i].patch == patch; ++i) rim_edges.push_back(creases[i].edge);
+    Ring ring = rim(rim_edges, size[patch]);
+    if (!ring.empty()) rims.push_back(std::move(ring));
+  }
+  return rims;
+}
+
+std::vector<RingStarts::Ring> RingStarts::rungs(std::span<const std::uint32_t> vertices) const {
+  std::vector<Ring> starts;
+  for (const std::uint32_t v : vertices) {
+    if (fans_.of(v).size() != 1) continue;  // an ear
+    for (const std::uint32_t w : mesh_.triangles[fans_.of(v)[0]]) {
+      if (w != v) starts.push_back({v, w});
+    }
+    starts.push_back({v});
+  }
+  return starts;
+}
+
+}  // namespace copse

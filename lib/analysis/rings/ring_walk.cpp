@@ -1,0 +1,310 @@
+#include "lib/analysis/rings/ring_walk.h"
+
+#include "lib/analysis/rings/axis.h"
+#include "lib/analysis/surface/welded_tolerances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+namespace copse {
+
+namespace {
+
+class RingWalk {
+ public:
+  RingWalk(const Surface& s, const Bands& bands, const RingGraph& g)
+      : s_(s),
+        bands_(bands),
+        g_(g),
+        radius_of_(g.nodes(), k_none),
+        branch_of_(g.nodes(), k_none),
+        is_seated_(g.nodes(), 0),
+        owned_(s.positions.size(), 0),
+        joint_of_(g.sites, k_none),
+        entered_(g.sites, 0) {}
+
+  Hierarchy walk() {
+    out_.segment_of.assign(s_.triangles.size(), k_none);
+    const std::uint32_t root = find_root();
+    if (root == k_none) return std::move(out_);
+    place(root, k_none, branches_++);
+    walk_tube(root);
+    while (!waiting_.empty()) {
+      const std::uint32_t node = waiting_.front();
+      waiting_.pop_front();
+      if (!entered_[g_.site_of[node]]) enter(g_.site_of[node], node);
+    }
+    explain_caps();
+    for (std::uint32_t site = 0; site < g_.sites; ++site) explain_site(site);
+    return std::move(out_);
+  }
+
+ private:
+  std::span<const std::uint32_t> ring(std::uint32_t node) const { return bands_.ring(g_.ring[node]); }
+  bool is_point(std::uint32_t node) const { return ring(node).size() == 1; }
+
+  // Whether a vertex closes a limb's end rather than drawing it out to a point.
+  bool is_cap(std::uint32_t point, std::uint32_t node) const {
+    return distance(g_.circle[point].centre, g_.circle[node].centre) < k_cap_height * g_.circle[node].radius;
+  }
+
+  // How well a ring may be the base of the whole: 0 at an end that is open or capped, or lies with others at
+  // a border; less at a pointed end; least where the limb goes on.
+  double root_penalty(std::uint32_t node) const {
+    if (const std::uint32_t site = g_.site_of[node]; site != k_none) {
+      // A closed lump at the end of a limb may be anything.
+      return g_.is_open[site] ? 0 : g_.ends[site].size() == 1 ? 0.5 : 2;
+    }
+    if (g_.bands_of[node].size() == 1) return 0;
+    double least = 2;
+    for (const std::uint32_t b : g_.bands_of[node]) {
+      const std::uint32_t other = g_.across(node, b);
+      if (is_point(other)) least = std::min(least, is_cap(other, node) ? 0 : 0.5);
+    }
+    return least;
+  }
+
+  std::uint32_t find_root() const {
+    DoubleBox box;
+    double widest = std::numeric_limits<double>::min();
+    for (const RingCircle& c : g_.circle) box.grow(c.centre), widest = std::max(widest, c.radius);
+    const double height = std::max(box.extent().y, std::numeric_limits<double>::min());
+    std::uint32_t best = k_none;
+    double best_score = -std::numeric_limits<double>::infinity();
+    for (std::uint32_t n = 0; n < g_.nodes(); ++n) {
+      if (is_point(n)) continue;
+      const RingCircle& c = g_.circle[n];
+      const double score =
+          c.radius / widest - k_lowness * (c.centre.y - box.min.y) / height - root_penalty(n);
+      if (score > best_score) best_score = score, best = n;
+    }
+    return best;
+  }
+
+  std::uint32_t add_radius(const RingCircle& c, std::uint32_t parent, RadiusSource source,
+                           std::uint32_t branch) {
+    out_.radii.push_back({c.centre, 2 * c.radius, parent, false, source, branch});
+    out_.first_vertex.push_back(static_cast<std::uint32_t>(out_.ring_vertices.size()));
+    return static_cast<std::uint32_t>(out_.radii.size() - 1);
+  }
+  void own(std::uint32_t v) {
+    if (owned_[v]) return;
+    owned_[v] = 1;
+    out_.ring_vertices.push_back(v);
+  }
+
+  void place(std::uint32_t node, std::uint32_t parent, std::uint32_t branch) {
+    for (const std::uint32_t v : ring(node)) own(v);
+    radius_of_[node] = add_radius(g_.circle[node], parent,
+                                  is_point(node) ? RadiusSource::point : RadiusSource::ring, branch);
+    branch_of_[node] = branch;
+  }
+  void seat(std::uint32_t node, std::uint32_t radius, std::uint32_t branch) {
+    radius_of_[node] = radius;
+    branch_of_[node] = branch;
+    is_seated_[node] = 1;
+  }
+
+  void explain(std::uint32_t band, std::uint32_t segment) {
+    for (std::uint32_t i = bands_.first_triangle[band]; i < bands_.first_triangle[band + 1]; ++i) {
+      out_.segment_of[bands_.triangles[i]] = segment;
+    }
+  }
+
+  // Places all rings that bands lead to from a placed one, and notes the sites on the way.
+  void walk_tube(std::uint32_t start) {
+    std::vector<std::uint32_t> todo{start};
+    while (!todo.empty()) {
+      const std::uint32_t n = todo.back();
+      todo.pop_back();
+      if (g_.site_of[n] != k_none) waiting_.push_back(n);
+      bool carries_on = true;
+      for (const std::uint32_t b : g_.bands_of[n]) {
+        const std::uint32_t m = g_.across(n, b);
+        if (radius_of_[m] != k_none) continue;
+        if (is_point(m) && is_cap(m, n)) {
+          seat(m, radius_of_[n], branch_of_[n]);
+          continue;
+        }
+        place(m, radius_of_[n], carries_on ? branch_of_[n] : branches_++);
+        carries_on = false;
+        explain(b, radius_of_[m]);
+        todo.push_back(m);
+      }
+    }
+  }
+
+  // The radius that most of the ring lies on, k_none when less than half of it lies on placed rings.
+  std::uint32_t find_seat(std::uint32_t node) const {
+    std::vector<std::uint32_t> holders;
+    std::size_t held = 0;
+    for (const std::uint32_t v : ring(node)) {
+      const std::size_t before = holders.size();
+      for (const std::uint32_t m : g_.nodes_of[v]) {
+        if (radius_of_[m] != k_none && !is_seated_[m]) holders.push_back(radius_of_[m]);
+      }
+      held += holders.size() > before;
+    }
+    if (2 * held < ring(node).size()) return k_none;
+    std::ranges::sort(holders);
+    std::uint32_t best = k_none;
+    std::ptrdiff_t most = 0;
+    for (auto i = holders.begin(); i != holders.end();) {
+      const auto j = std::upper_bound(i, holders.end(), *i);
+      if (j - i > most) most = j - i, best = *i;
+      i = j;
+    }
+    return best;
+  }
+
+  // The way a limb goes away from the site that it ends at, over the length of its own thickness, because the
+  // rings next to a fork lean; zero for a ring without bands.
+  Double3 direction(std::uint32_t end) const {
+    std::uint32_t last = k_none, n = end;
+    for (bool on = true; on;) {
+      on = false;
+      for (const std::uint32_t b : g_.bands_of[n]) {
+        const std::uint32_t m = g_.across(n, b);
+        if (b == last || m == end || is_point(m)) continue;
+        on = distance(g_.circle[m].centre, g_.circle[end].centre) < 2 * g_.circle[end].radius;
+        last = b, n = m;
+        break;
+      }
+    }
+    return normalized(g_.circle[n].centre - g_.circle[end].centre, {});
+  }
+
+  // The ends of a site that are still to be placed: those that lie least on placed rings first (what goes on,
+  // before what sits on it), then the thickest.
+  std::vector<std::uint32_t> ends_to_place(std::uint32_t site) const {
+    struct End {
+      std::size_t held;
+      double radius;
+      std::uint32_t node;
+    };
+    std::vector<End> ends;
+    for (const std::uint32_t n : g_.ends[site]) {
+      if (radius_of_[n] != k_none) continue;
+      std::size_t held = 0;
+      for (const std::uint32_t v : ring(n)) held += owned_[v];
+      ends.push_back({held, g_.circle[n].radius, n});
+    }
+    std::ranges::stable_sort(ends, [](const End& a, const End& b) {
+      return a.held != b.held ? a.held < b.held : a.radius > b.radius;
+    });
+    std::vector<std::uint32_t> nodes;
+    for (const End& e : ends) nodes.push_back(e.node);
+    return nodes;
+  }
+
+  std::uint32_t best_continuation(std::uint32_t from, std::span<const std::uint32_t> ends) const {
+    const Double3 forward = -direction(from);
+    std::uint32_t best = k_none;
+    double best_score = -std::numeric_limits<double>::infinity();
+    for (const std::uint32_t n : ends) {
+      const double score = g_.circle[n].radius / std::max(g_.circle[from].radius, g_.circle[n].radius) +
+                           dot(forward, direction(n));
+      if (score > best_score) best_score = score, best = n;
+    }
+    return best;
+  }
+
+  void enter(std::uint32_t site, std::uint32_t from) {
+    entered_[site] = 1;
+    const std::vector<std::uint32_t> ends = ends_to_place(site);
+    std::uint32_t parent = radius_of_[from];
+    if (ends.size() >= 2) parent = place_joint(site, from, ends);
+    const std::uint32_t next = best_continuation(from, ends);
+    for (const std::uint32_t n : ends) {
+      if (radius_of_[n] != k_none) continue;  // a limb that comes back to its own site
+      const std::uint32_t branch = n == next ? branch_of_[from] : branches_++;
+      const std::uint32_t on = find_seat(n);
+      if (on != k_none) {
+        seat(n, on, branch);
+      } else {
+        place(n, parent, branch);
+      }
+      walk_tube(n);
+    }
+  }
+
+  // A radius for the vertices of the site that no ring holds; the entry's own where there are none.
+  std::uint32_t place_joint(std::uint32_t site, std::uint32_t from, std::span<const std::uint32_t> ends) {
+    const std::size_t before = out_.ring_vertices.size();
+    for (const std::uint32_t t : g_.patch[site]) {
+      for (const std::uint32_t v : s_.triangles[t]) {
+        if (g_.nodes_of[v].empty()) own(v);
+      }
+    }
+    if (out_.ring_vertices.size() == before) return radius_of_[from];
+    std::vector<AxisLine> lines{{g_.circle[from].centre, direction(from), g_.circle[from].radius}};
+    double thickest = 0;
+    for (const std::uint32_t n : ends) {
+      lines.push_back({g_.circle[n].centre, direction(n), g_.circle[n].radius});
+      thickest = std::max(thickest, g_.circle[n].radius);
+    }
+    const RingCircle joint{meeting_point(lines), (g_.circle[from].radius + thickest) / 2};
+    return joint_of_[site] = add_radius(joint, radius_of_[from], RadiusSource::surface, branch_of_[from]);
+  }
+
+  // The segments that end at a node or start there.
+  void segments_at(std::uint32_t node, std::vector<std::uint32_t>& segments) const {
+    const std::uint32_t r = radius_of_[node];
+    if (out_.radii[r].parent != k_none) segments.push_back(r);
+    for (const std::uint32_t b : g_.bands_of[node]) {
+      const std::uint32_t child = radius_of_[g_.across(node, b)];
+      if (out_.radii[child].parent == r) segments.push_back(child);
+    }
+  }
+
+  void explain_caps() {
+    std::vector<std::uint32_t> segments;
+    for (std::uint32_t n = 0; n < g_.nodes(); ++n) {
+      if (!is_point(n) || !is_seated_[n]) continue;
+      segments.clear();
+      segments_at(g_.across(n, g_.bands_of[n][0]), segments);
+      if (!segments.empty()) explain(g_.bands_of[n][0], segments[0]);
+    }
+  }
+
+  void explain_site(std::uint32_t site) {
+    std::vector<std::uint32_t> segments;
+    if (joint_of_[site] != k_none) segments.push_back(joint_of_[site]);
+    for (const std::uint32_t n : g_.ends[site]) segments_at(n, segments);
+    std::ranges::sort(segments);
+    for (const std::uint32_t t : g_.patch[site]) {
+      const Triangle& c = s_.triangles[t];
+      const Double3 p = (s_.positions[c[0]] + s_.positions[c[1]] + s_.positions[c[2]]) / 3.0;
+      double least = std::numeric_limits<double>::infinity();
+      for (const std::uint32_t r : segments) {
+        const RadiusNode &child = out_.radii[r], &parent = out_.radii[child.parent];
+        const double at = nearest_on_segment(parent.centre, child.centre, p);
+        const double d = distance(parent.centre + (child.centre - parent.centre) * at, p);
+        const double radius = parent.diameter + (child.diameter - parent.diameter) * at;
+        const double apart = d / std::max(radius, std::numeric_limits<double>::min());
+        if (apart < least) least = apart, out_.segment_of[t] = r;
+      }
+    }
+  }
+
+  const Surface& s_;
+  const Bands& bands_;
+  const RingGraph& g_;
+  Hierarchy out_;
+  std::vector<std::uint32_t> radius_of_, branch_of_;  // one a node; of its seat where it is no radius itself
+  std::vector<std::uint8_t> is_seated_, owned_;       // one a node, one a vertex
+  std::vector<std::uint32_t> joint_of_;               // one a site: the radius between its limbs
+  std::vector<std::uint8_t> entered_;                 // one a site
+  std::deque<std::uint32_t> waiting_;                 // placed nodes whose sites are still to be entered
+  std::uint32_t branches_ = 0;
+};
+
+}  // namespace
+
+Hierarchy walk_rings(const Surface& surface, const Bands& bands, const RingGraph& graph) {
+  return RingWalk(surface, bands, graph).walk();
+}
+
+}  // namespace copse

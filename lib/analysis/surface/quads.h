@@ -1,0 +1,24 @@
+// quads: which two triangles were one quad, and the closed strips of quads.
+#pragma once
+
+#include "lib/analysis/surface/bands.h"
+#include "lib/analysis/surface/surface.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace copse {
+
+// The partner of each triangle, k_none for those without. Only triangles whose `taken` is k_none are paired.
+// With `in_order`, neighbours in the file are preferred: exporters cut a quad into two consecutive triangles;
+// otherwise only the shape counts: the pairs that are most nearly rectangles, first. O(n log n).
+std::vector<std::uint32_t> pair_quads(const Surface& surface, std::span<const std::uint32_t> taken,
+                                      bool in_order);
+
+// Adds the bands that closed strips of quads make: of strips that cross, the one with the shorter way round,
+// as round a limb is shorter than along it. Strips pass through quads, so no vertex of any valence stops
+// them.
+void add_quad_bands(const Surface& surface, std::span<const std::uint32_t> partner, Bands& bands);
+
+}  // namespace copse

@@ -1,0 +1,243 @@
+#include "lib/analysis/surface/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace copse {
+
+namespace {
+
+// A triangle's edge, seen from the lower of its two vertices.
+struct EdgeUse {
+  std::uint32_t high;  // the other vertex
+  std::uint32_t triangle;
+  std::uint8_t edge;
+  bool rising;  // runs from the lower to the higher vertex
+};
+
+// Items 0 .. count - 1 sorted into buckets: begin[b] .. begin[b + 1] of `items`.
+struct Buckets {
+  std::vector<std::uint32_t> begin, items;
+};
+
+Buckets triangles_by_lowest(const std::vector<Triangle>& triangles, std::size_t vertices) {
+  Buckets b;
+  b.begin.assign(vertices + 1, 0);
+  for (const Triangle& t : triangles) ++b.begin[std::min({t[0], t[1], t[2]}) + 1];
+  for (std::size_t v = 0; v < vertices; ++v) b.begin[v + 1] += b.begin[v];
+  b.items.resize(triangles.size());
+  std::vector<std::uint32_t> next(b.begin.begin(), b.begin.end() - 1);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& t = triangles[i];
+    b.items[next[std::min({t[0], t[1], t[2]})]++] = i;
+  }
+  return b;
+}
+
+// The first triangle with the same three vertices, for each.
+std::vector<std::uint32_t> first_of_same(const std::vector<Triangle>& triangles, std::size_t vertices) {
+  const Buckets b = triangles_by_lowest(triangles, vertices);
+  std::vector<std::uint32_t> first(triangles.size());
+  struct Key {
+    std::uint32_t middle, high, triangle;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<Key> keys;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    keys.clear();
+    for (std::uint32_t i = b.begin[v]; i < b.begin[v + 1]; ++i) {
+      Triangle t = triangles[b.items[i]];
+      std::ranges::sort(t);
+      keys.push_back({t[1], t[2], b.items[i]});
+    }
+    std::ranges::sort(keys);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const bool same = i > 0 && keys[i].middle == keys[i - 1].middle && keys[i].high == keys[i - 1].high;
+      first[keys[i].triangle] = same ? first[keys[i - 1].triangle] : keys[i].triangle;
+    }
+  }
+  return first;
+}
+
+class EdgePairing {
+ public:
+  EdgePairing(Surface& surface, std::vector<std::uint32_t> piece)
+      : surface_(surface), piece_(std::move(piece)) {}
+
+  void pair_all() {
+    surface_.across.assign(surface_.triangles.size(), Triangle{k_none, k_none, k_none});
+    bucket_edges();
+    for (std::size_t v = 0; v + 1 < begin_.size(); ++v) {
+      const auto from = uses_.begin() + begin_[v], to = uses_.begin() + begin_[v + 1];
+      std::sort(from, to, [](const EdgeUse& a, const EdgeUse& b) {
+        return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
+      });
+      for (auto i = from; i != to;) {
+        auto j = i;
+        while (j != to && j->high == i->high) ++j;
+        pair_edge(static_cast<std::uint32_t>(v), {i, j});
+        i = j;
+      }
+    }
+  }
+
+ private:
+  void bucket_edges() {
+    const auto each = [&](const auto& visit) {
+      for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
+        for (std::uint8_t e = 0; e < 3; ++e) {
+          const std::uint32_t a = surface_.triangles[t][e], b = surface_.triangles[t][(e + 1) % 3];
+          visit(std::min(a, b), EdgeUse{std::max(a, b), t, e, a < b});
+        }
+      }
+    };
+    begin_.assign(surface_.positions.size() + 1, 0);
+    each([&](std::uint32_t low, const EdgeUse&) { ++begin_[low + 1]; });
+    for (std::size_t v = 0; v + 1 < begin_.size(); ++v) begin_[v + 1] += begin_[v];
+    uses_.resize(begin_.back());
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    each([&](std::uint32_t low, const EdgeUse& use) { uses_[next[low]++] = use; });
+  }
+
+  void join(const EdgeUse& a, const EdgeUse& b) {
+    surface_.across[a.triangle][a.edge] = b.triangle;
+    surface_.across[b.triangle][b.edge] = a.triangle;
+  }
+
+  void pair_edge(std::uint32_t low, std::span<EdgeUse> uses) {
+    if (uses.size() == 1) ++surface_.border_edges;
+    if (uses.size() == 2) join(uses[0], uses[1]);
+    if (uses.size() > 2) {
+      ++surface_.non_manifold_edges;
+      if (!pair_by_piece(uses)) pair_by_matter(low, uses);
+    }
+  }
+
+  bool pair_by_piece(std::span<EdgeUse> uses) {
+    std::ranges::sort(uses, [&](const EdgeUse& a, const EdgeUse& b) {
+      const std::uint32_t pa = piece_[a.triangle], pb = piece_[b.triangle];
+      return pa != pb ? pa < pb : a.triangle < b.triangle;
+    });
+    const auto piece = [&](std::size_t i) { return piece_[uses[i].triangle]; };
+    bool paired = false;
+    for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
+      while (j < uses.size() && piece(j) == piece(i)) ++j;
+      if (j - i == 2) join(uses[i], uses[i + 1]), paired = true;
+    }
+    return paired;
+  }
+
+  // Turns about the edge; between a triangle that runs one way and the next one, which runs the other way,
+  // there is matter on one side and air on the other.
+  void pair_by_matter(std::uint32_t low, std::span<EdgeUse> uses) {
+    if (uses.size() % 2 != 0) return;
+    const Double3 origin = surface_.positions[low];
+    const Double3 axis = normalized(surface_.positions[uses[0].high] - origin);
+    const Double3 any = std::abs(axis.x) < 0.5 ? Double3{1, 0, 0} : Double3{0, 1, 0};
+    const Double3 u = normalized(cross(axis, any)), v = cross(axis, u);
+    std::vector<std::pair<double, std::size_t>> turn;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+      const std::uint32_t apex = third_corner(surface_.triangles[uses[i].triangle], low, uses[i].high);
+      const Double3 d = surface_.positions[apex] - origin;
+      turn.emplace_back(std::atan2(dot(d, v), dot(d, u)), i);
+    }
+    std::ranges::sort(turn);
+    for (std::size_t i = 0; i < turn.size(); ++i) {
+      if (uses[turn[i].second].rising == uses[turn[(i + 1) % turn.size()].second].rising) return;
+    }
+    // With u, v, axis right-handed, a triangle that runs up the edge faces the side of growing angle, so
+    // matter lies before it.
+    const std::size_t first = uses[turn[0].second].rising ? turn.size() - 1 : 0;
+    for (std::size_t i = 0; i < turn.size(); i += 2) {
+      join(uses[turn[(first + i) % turn.size()].second], uses[turn[(first + i + 1) % turn.size()].second]);
+    }
+  }
+
+  Surface& surface_;
+  std::vector<std::uint32_t> piece_;
+  std::vector<std::uint32_t> begin_;
+  std::vector<EdgeUse> uses_;
+};
+
+// The compact number of every corner; `used` receives the vertices in ascending order.
+std::vector<std::uint32_t> number_vertices(const TrunkMesh& whole, std::span<const std::uint32_t> triangles,
+                                           std::vector<std::uint32_t>& used) {
+  std::vector<std::uint32_t> corners;
+  corners.reserve(3 * triangles.size());
+  for (std::uint32_t t : triangles) {
+    corners.insert(corners.end(), whole.triangles[t].begin(), whole.triangles[t].end());
+  }
+  if (corners.empty()) return corners;
+  const auto [low, high] = std::ranges::minmax(corners);
+  if (high - low < 8 * corners.size()) {  // nearly always: a table costs less than sorting
+    std::vector<std::uint32_t> number(high - low + 1, 0);
+    for (std::uint32_t v : corners) number[v - low] = 1;
+    for (std::uint32_t v = low; v <= high && v >= low; ++v) {
+      if (number[v - low] == 0) continue;
+      number[v - low] = static_cast<std::uint32_t>(used.size());
+      used.push_back(v);
+    }
+    for (std::uint32_t& v : corners) v = number[v - low];
+  } else {
+    used = corners;
+    std::ranges::sort(used);
+    const auto repeated = std::ranges::unique(used);
+    used.erase(repeated.begin(), repeated.end());
+    for (std::uint32_t& v : corners) {
+      v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
+    }
+  }
+  return corners;
+}
+
+}  // namespace
+
+Surface make_surface(const TrunkMesh& whole, std::span<const std::uint32_t> triangles) {
+  Surface s;
+  const std::vector<std::uint32_t> local = number_vertices(whole, triangles, s.vertex);
+  s.positions.reserve(s.vertex.size());
+  for (std::uint32_t v : s.vertex) s.positions.push_back(whole.positions[v]);
+
+  std::vector<Triangle> all;
+  all.reserve(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    all.push_back({local[3 * i], local[3 * i + 1], local[3 * i + 2]});
+  }
+  const std::vector<std::uint32_t> first = first_of_same(all, s.positions.size());
+  std::vector<std::uint32_t> piece;
+  s.triangle_of.resize(all.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    if (first[i] == i) {
+      s.triangle_of[i] = static_cast<std::uint32_t>(s.triangles.size());
+      s.triangles.push_back(all[i]);
+      s.order.push_back(whole.source.empty() ? i : whole.source[triangles[i]]);
+      piece.push_back(whole.piece.empty() ? 0 : whole.piece[triangles[i]]);
+    } else {
+      s.triangle_of[i] = s.triangle_of[first[i]];
+    }
+  }
+  EdgePairing(s, std::move(piece)).pair_all();
+  return s;
+}
+
+std::vector<std::uint32_t> border_loop(const Surface& surface, std::uint32_t triangle, std::size_t edge) {
+  std::vector<std::uint32_t> loop;
+  std::uint32_t t = triangle;
+  std::uint32_t a = surface.triangles[t][edge], b = surface.triangles[t][(edge + 1) % 3];
+  const std::uint32_t first = a, second = b;
+  do {
+    loop.push_back(a);
+    for (;;) {
+      const std::uint32_t x = third_corner(surface.triangles[t], a, b);
+      const std::uint32_t n =
+          surface.across[t][static_cast<std::size_t>(edge_between(surface.triangles[t], b, x))];
+      a = x;
+      if (n == k_none) break;
+      t = n;
+    }
+    std::swap(a, b);
+  } while (t != triangle || a != first || b != second);
+  return loop;
+}
+
+}  // namespace copse

@@ -1,0 +1,84 @@
+#include "lib/analysis/surface/quads.h"
+
+#include "tests/trunk/welded_meshes.h"
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+// A slanted tube: the true quads are parallelograms, so only the order tells them from their neighbours.
+TrunkMesh slanted_tube() {
+  TrunkMesh mesh;
+  for (int r = 0; r < 6; ++r) {
+    for (int i = 0; i < 6; ++i) {
+      const double a = 1.0472 * (i + 0.7 * r);
+      mesh.positions.push_back({std::cos(a), 0.8 * r, -std::sin(a)});
+    }
+  }
+  for (std::uint32_t r = 0; r < 5; ++r) {
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      const std::uint32_t a = 6 * r + i, b = 6 * r + (i + 1) % 6;
+      mesh.triangles.push_back({a, b, b + 6});
+      mesh.triangles.push_back({a, b + 6, a + 6});
+    }
+  }
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) mesh.source.push_back(t), mesh.piece.push_back(0);
+  return mesh;
+}
+
+TEST(Quads, AreReadFromTheOrderOfTheFile) {
+  const Surface s = surface_of(slanted_tube());
+  const std::vector<std::uint32_t> taken(s.triangles.size(), k_none);
+  const auto partner = pair_quads(s, taken, true);
+  for (std::uint32_t t = 0; t < partner.size(); ++t) EXPECT_EQ(partner[t], t ^ 1u);
+}
+
+TEST(Quads, AreReadFromTheirShapeInAnyOrder) {
+  std::vector<Cell> cells{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
+  const Surface s = surface_of(shuffled(smooth_cells(cells, 0), 4));
+  const std::vector<std::uint32_t> taken(s.triangles.size(), k_none);
+  const auto partner = pair_quads(s, taken, false);
+  for (std::uint32_t t = 0; t < partner.size(); ++t) {
+    ASSERT_NE(partner[t], k_none);
+    EXPECT_EQ(partner[partner[t]], t);
+  }
+}
+
+TEST(Quads, LeaveTakenTrianglesAlone) {
+  const Surface s = surface_of(slanted_tube());
+  std::vector<std::uint32_t> taken(s.triangles.size(), k_none);
+  taken[4] = taken[5] = 0;
+  for (const bool in_order : {false, true}) {
+    const auto partner = pair_quads(s, taken, in_order);
+    EXPECT_EQ(partner[4], k_none);
+    EXPECT_EQ(partner[5], k_none);
+  }
+}
+
+TEST(QuadBands, GoRoundALimbAndNotAlongIt) {
+  std::vector<Cell> cells;
+  for (int y = 0; y < 8; ++y) cells.push_back({0, y, 0});
+  const Surface s = surface_of(smooth_cells(cells, 1));
+  Bands bands;
+  bands.band_of.assign(s.triangles.size(), k_none);
+  add_quad_bands(s, pair_quads(s, bands.band_of, true), bands);
+  EXPECT_GE(bands.count(), 14u);
+  for (std::uint32_t r = 0; r < 2 * bands.count(); ++r) {
+    EXPECT_EQ(bands.ring(r).size(), 8u);
+    const RingCircle c = ring_circle(s.positions, bands.ring(r));
+    EXPECT_NEAR(c.centre.x, 0.5, 1e-9);
+    EXPECT_NEAR(c.centre.z, 0.5, 1e-9);
+  }
+}
+
+TEST(QuadBands, OfAMoebiusStripAreNone) {
+  const Surface s = surface_of(moebius(20));
+  Bands bands;
+  bands.band_of.assign(s.triangles.size(), k_none);
+  add_quad_bands(s, pair_quads(s, bands.band_of, true), bands);
+  EXPECT_EQ(bands.count(), 0u);
+}
+
+}  // namespace
+}  // namespace copse
