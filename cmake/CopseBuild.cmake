@@ -70,9 +70,11 @@ function(copse_tests room)
   target_link_libraries(test_${room} PRIVATE ${ARG_LINK} copse_flags GTest::gtest_main GTest::gmock Threads::Threads)
   target_compile_definitions(test_${room} PRIVATE
     COPSE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" COPSE_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
+  set(environment)
   if(COPSE_SANITIZE)
     # What is under test is optimised as ever; the tests' own code is half of the build, and only called once.
     target_compile_options(test_${room} PRIVATE -O1 -g1)
+    set(environment ENVIRONMENT LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/leaks.supp:print_suppressions=0)
   endif()
-  gtest_discover_tests(test_${room} TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  gtest_discover_tests(test_${room} TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 ${environment})
 endfunction()

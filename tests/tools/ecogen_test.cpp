@@ -476,7 +476,8 @@ TEST_F(Ecogen, TreesLargerThanTheirCellsAreWarnedOfAndShowNoGrid) {
 TEST_F(Ecogen, OneThatFloatsByHandDoesNotLiftTheOthers) {
   page_["types"][0]["instances"] = Json::parse(R"([{"x": 5, "y": 77, "z": 5}])");
   ASSERT_EQ(run({"--report", file("r.json")}).status, 0);
-  for (const auto& error : Json::parse(read_text(file("r.json")))["errors"])
+  const Json report = Json::parse(read_text(file("r.json")));
+  for (const auto& error : report["errors"])
     if (error["name"] == "foot off the ground") {
       EXPECT_LE(error["max"].get<double>(), 1e-5);
     }

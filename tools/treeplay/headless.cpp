@@ -1,6 +1,5 @@
 #include "tools/treeplay/headless.h"
 
-#include "tools/treeplay/driver_scope.h"
 
 #include <array>
 #include <cstdlib>
@@ -98,7 +97,6 @@ std::unique_ptr<GlContext> try_display(EGLDisplay display, std::string& why) {
 }  // namespace
 
 Result<std::unique_ptr<GlContext>> make_headless(int threads) {
-  const DriverScope scope;
   if (!has_library("libEGL.so.1")) return fail(Fault::io, "libEGL.so.1", "is not installed", k_install);
   if (!has_library("libOpenGL.so.0") && !has_library("libGL.so.1")) {
     return fail(Fault::io, "libGL.so.1", "is not installed", k_install);
