@@ -23,6 +23,13 @@ struct Limb {
         shape(tree, centres, trunk, chains.at(0)) {}
 };
 
+std::vector<SpectrumVertex> ring_vertices(const LimbShape& shape, std::size_t i, std::size_t interval,
+                                          std::uint32_t sides, double angle) {
+  std::vector<SpectrumVertex> out;
+  shape.append_ring(i, interval, sides, angle, out);
+  return out;
+}
+
 double perimeter(const std::vector<SpectrumVertex>& ring) {
   double sum = 0;
   for (std::size_t j = 0; j + 1 < ring.size(); ++j)
@@ -40,19 +47,33 @@ TEST(LimbShape, ReadsRegularRings) {
 
 TEST(LimbShape, ARingWithFewerSidesHasTheSamePerimeter) {
   const Limb limb(stem_with_twigs(4, 12, 0));
-  const double full = perimeter(limb.shape.ring_vertices(1, 1, 12, 0));
+  const double full = perimeter(ring_vertices(limb.shape, 1, 1, 12, 0));
   EXPECT_NEAR(full, 12 * 2 * 0.5 * std::sin(std::numbers::pi / 12), 1e-5);
   for (const std::uint32_t k : {8u, 6u, 5u, 4u, 3u})
-    EXPECT_NEAR(perimeter(limb.shape.ring_vertices(1, 1, k, 0)), full, 1e-5) << k;
+    EXPECT_NEAR(perimeter(ring_vertices(limb.shape, 1, 1, k, 0)), full, 1e-5) << k;
 }
 
 TEST(LimbShape, ARibbonIsAsWideOnAverageAsTheTube) {
   const Limb limb(stem_with_twigs(4, 64, 0));
-  const std::vector<SpectrumVertex> ends = limb.shape.ring_vertices(2, 1, 2, 0.3);
+  const std::vector<SpectrumVertex> ends = ring_vertices(limb.shape, 2, 1, 2, 0.3);
   ASSERT_EQ(ends.size(), 2u);
   // Seen from all round a strip of width w shows 2 w / pi.
   EXPECT_NEAR(distance(to_double(ends[0].position), to_double(ends[1].position)) * 2 / std::numbers::pi, 1.0,
               1e-3);
+}
+
+TEST(LimbShape, ASpikeIsAsLargeAsTheRibbonThatItStandsFor) {
+  for (const double last : {0.5, 0.2, 0.05}) {
+    Tube tube;
+    tube.add_ring({0, 2, 0}, last, 64, tube.add_ring({0, 0, 0}, 0.5, 64, k_none));
+    const Limb limb(tree_of(tube));
+    const auto low = ring_vertices(limb.shape, 0, 0, 2, 0.7), high = ring_vertices(limb.shape, 1, 0, 2, 0.7);
+    const auto place = [](const SpectrumVertex& v) { return to_double(v.position); };
+    const double ribbon = distance(place(low[0]), place(low[1])) + distance(place(high[0]), place(high[1]));
+    const auto spike = limb.shape.spike(0.7);
+    EXPECT_NEAR(distance(place(spike[0]), place(spike[1])), ribbon, 1e-5);
+    EXPECT_NEAR(distance(place(spike[2]), {0, 2, 0}), 0, 1e-6);
+  }
 }
 
 TEST(LimbShape, LeavingOutRingsOfAStraightStemCostsNothing) {

@@ -101,6 +101,14 @@ std::vector<std::uint32_t> side_counts(std::uint32_t most) {
   return counts;
 }
 
+// A rung before its rings are named.
+struct Rung {
+  std::size_t gone = 0;     // rings, in their order
+  std::uint32_t sides = 0;  // 0: nothing is left
+  std::uint32_t triangles = 0;
+  double cost = 0, bound = 0;
+};
+
 // Walks down in rings and sides, each time the way that costs less a triangle.
 class Walk {
  public:
@@ -120,15 +128,15 @@ class Walk {
   double girth() const { return girth_; }
   double thickest() const { return thickest_; }
 
-  std::vector<LimbRung> rungs() {
-    std::vector<LimbRung> out;
+  std::vector<Rung> rungs() const {
+    std::vector<Rung> out;
     std::size_t gone = 0, k = 0;
     for (;;) {
       out.push_back(rung(gone, k));
       const bool fewer_rings = gone < rings_.order.size(), fewer_sides = k + 1 < sides_.size();
       if (!fewer_rings && !fewer_sides) return out;
       if (!fewer_sides ||
-          (fewer_rings && slope(out.back(), state(gone + 1, k)) <= slope(out.back(), state(gone, k + 1)))) {
+          (fewer_rings && slope(out.back(), rung(gone + 1, k)) <= slope(out.back(), rung(gone, k + 1)))) {
         ++gone;
       } else {
         ++k;
@@ -136,25 +144,26 @@ class Walk {
     }
   }
 
+  LimbRung made(const Rung& r) const {
+    LimbRung out{.kept = {}, .sides = r.sides, .triangles = r.triangles, .cost = r.cost, .bound = r.bound};
+    if (r.sides == 0) return out;
+    std::vector<std::uint8_t> is_gone(shape_.ring_count(), 0);
+    for (std::size_t i = 0; i < r.gone; ++i) is_gone[rings_.order[i]] = 1;
+    for (std::uint32_t i = 0; i < is_gone.size(); ++i)
+      if (!is_gone[i]) out.kept.push_back(i);
+    return out;
+  }
+
  private:
-  LimbRung state(std::size_t gone, std::size_t k) const {
-    LimbRung r;
-    r.sides = sides_[k];
+  Rung rung(std::size_t gone, std::size_t k) const {
+    Rung r{.gone = gone, .sides = sides_[k]};
     r.triangles = shape_.triangles(shape_.ring_count() - gone, r.sides);
     const double rough = std::max(0.0, roughness(r.sides) - roughness(sides_.front()));
     r.cost = rings_.costs[gone] + girth_ * rough + rough_;
     r.bound = rings_.bounds[gone] + 2 * rough * thickest_ + 3 * residual_;
     return r;
   }
-  LimbRung rung(std::size_t gone, std::size_t k) const {
-    LimbRung r = state(gone, k);
-    std::vector<std::uint8_t> is_gone(shape_.ring_count(), 0);
-    for (std::size_t i = 0; i < gone; ++i) is_gone[rings_.order[i]] = 1;
-    for (std::uint32_t i = 0; i < is_gone.size(); ++i)
-      if (!is_gone[i]) r.kept.push_back(i);
-    return r;
-  }
-  static double slope(const LimbRung& from, const LimbRung& to) {
+  static double slope(const Rung& from, const Rung& to) {
     return (to.cost - from.cost) / std::max(1.0, static_cast<double>(from.triangles) - to.triangles);
   }
 
@@ -165,24 +174,28 @@ class Walk {
 };
 
 // Keeps what is on the lower convex hull of cost over triangles, from (full, 0) on.
-std::vector<LimbRung> convex(std::vector<LimbRung> rungs, std::uint32_t full) {
-  std::vector<LimbRung> hull;
-  const auto slope = [&](const LimbRung* a, const LimbRung& b) {
+std::vector<Rung> convex(const std::vector<Rung>& rungs, std::uint32_t full) {
+  std::vector<Rung> hull;
+  const auto slope = [&](const Rung* a, const Rung& b) {
     const double from = a ? a->cost : 0, triangles = a ? a->triangles : full;
     return (b.cost - from) / (triangles - b.triangles);
   };
-  for (LimbRung& r : rungs) {
-    if (r.triangles >= (hull.empty() ? full : hull.back().triangles)) {
-      continue;
-    }
+  for (const Rung& r : rungs) {
+    if (r.triangles >= (hull.empty() ? full : hull.back().triangles)) continue;
     while (!hull.empty()) {
-      const LimbRung* before = hull.size() > 1 ? &hull[hull.size() - 2] : nullptr;
+      const Rung* before = hull.size() > 1 ? &hull[hull.size() - 2] : nullptr;
       if (slope(before, hull.back()) < slope(&hull.back(), r)) break;
       hull.pop_back();
     }
-    hull.push_back(std::move(r));
+    hull.push_back(r);
   }
   return hull;
+}
+
+// One triangle as large as the ribbon: the less it tapers, the more it differs.
+double spike_roughness(const LimbShape& shape) {
+  const double first = shape.ring(0).radius, last = shape.ring(shape.ring_count() - 1).radius;
+  return first + last > 0 ? 2 * last / (first + last) * (k_spike - k_ribbon) : 0;
 }
 
 }  // namespace
@@ -190,28 +203,25 @@ std::vector<LimbRung> convex(std::vector<LimbRung> rungs, std::uint32_t full) {
 std::vector<LimbRung> limb_ladder(const LimbShape& shape, const std::vector<std::uint8_t>& forks,
                                   std::uint32_t full, double vanish, RemovalOrder order) {
   const RingOrder rings(shape, forks, order);
-  Walk walk(shape, rings);
-  std::vector<LimbRung> all = walk.rungs();
+  const Walk walk(shape, rings);
+  std::vector<Rung> all = walk.rungs();
   const double length = shape.length_between(0, shape.ring_count() - 1);
   if (!shape.pointed()) {
-    LimbRung spike = all.back();
+    Rung spike = all.back();
     spike.sides = 1, spike.triangles = 1;
-    spike.cost += walk.girth() * (k_spike - k_ribbon);
+    spike.cost += walk.girth() * spike_roughness(shape);
     all.push_back(spike);
   }
-  all.push_back({.kept = {},
-                 .sides = 0,
-                 .triangles = 0,
-                 .cost = walk.girth() * vanish + all.back().cost * 1e-9,
+  all.push_back({.triangles = 0,
+                 .cost = std::max(walk.girth() * vanish + all.back().cost * 1e-9, all.back().cost * 1.001),
                  .bound = length + walk.thickest()});
-  all.back().cost = std::max(all.back().cost, all[all.size() - 2].cost * 1.001);
-  std::vector<LimbRung> hull = convex(std::move(all), full);
+  const std::vector<Rung> hull = convex(all, full);
   std::vector<LimbRung> out;
   double last = full;
   for (std::size_t i = 0; i < hull.size(); ++i) {
     if (i + 1 < hull.size() && hull[i].triangles > k_rung_ratio * last) continue;
     last = hull[i].triangles;
-    out.push_back(std::move(hull[i]));
+    out.push_back(walk.made(hull[i]));
   }
   return out;
 }

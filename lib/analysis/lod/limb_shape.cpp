@@ -7,6 +7,9 @@
 namespace copse {
 namespace {
 
+constexpr double k_apart_widths =
+    2;  // a tube that lies this many diameters aside is as wrong as can be, nearly
+constexpr double k_narrowest = 0.3;  // of a ring's perimeter
 constexpr double k_turn = 2 * std::numbers::pi;
 constexpr double k_widest_gap = 2.6;  // radians between neighbours on a ring: a triangle has 2.1
 constexpr double k_inner_share =
@@ -16,9 +19,16 @@ constexpr std::size_t k_samples = 16;   // rings looked at when an interval's er
 constexpr double k_ribbon_width =
     std::numbers::pi / 2;  // in diameters: a flat strip seen from all round is 2/pi wide
 
+// In [0, k_turn).
 double positive(double angle) {
-  angle = std::fmod(angle, k_turn);
-  return angle < 0 ? angle + k_turn : angle;
+  angle -= k_turn * std::floor(angle / k_turn);
+  return angle < k_turn && angle >= 0 ? angle : 0;
+}
+
+// Between two directions.
+double apart(double a, double b) {
+  const double d = positive(a - b);
+  return std::min(d, k_turn - d);
 }
 
 // Turns `v` as the least rotation from `from` to `to` (unit vectors) does.
@@ -45,11 +55,13 @@ LimbShape::LimbShape(const Tree& tree, const std::vector<Double3>& centres, cons
     : tree_(tree), trunk_(trunk), limb_(limb) {
   make_frames(centres);
   for (std::size_t i = 0; i < rings_.size(); ++i) read_ring(i);
+  first_angle_.push_back(static_cast<std::uint32_t>(angles_.size()));
   const std::size_t intervals = limb.segments.size();
-  sides_.resize(intervals), any_texcoord_.resize(intervals), regular_.resize(intervals);
+  any_texcoord_.resize(intervals), regular_.resize(intervals), narrowed_.assign(intervals, 1);
   const RingShape &last = rings_.back(), &before = rings_[rings_.size() - 2];
   pointed_ = last.radius <= k_point_share * before.radius;
-  for (std::size_t i = 0; i < intervals; ++i) read_sides(i);
+  std::array<std::vector<RingSide>, 2> scratch;
+  for (std::size_t i = 0; i < intervals; ++i) read_sides(i, scratch);
   choose_phases();
 }
 
@@ -72,8 +84,7 @@ void LimbShape::make_frames(const std::vector<Double3>& centres) {
   for (RingShape& r : rings_) r.y = cross(r.axis, r.x);
 }
 
-double LimbShape::angle(std::size_t i, const Double3& p) const {
-  const Double3 d = p - rings_[i].centre;
+double LimbShape::angle(std::size_t i, const Double3& d) const {
   return positive(std::atan2(dot(d, rings_[i].y), dot(d, rings_[i].x)));
 }
 
@@ -85,37 +96,42 @@ void LimbShape::read_ring(std::size_t i) {
   const std::size_t first = tree_.first_vector_of(r), end = tree_.first_vector_of(r + 1);
   const double inner = k_inner_share * ring.radius;
   double residual = 0;
+  first_angle_.push_back(static_cast<std::uint32_t>(angles_.size()));
+  const auto base = static_cast<std::uint32_t>(corners_.size());
+  first_corner_.push_back(base);
   for (std::size_t v = first; v < end; ++v) {
     const Double3 d = to_double(tree_.hierarchy.vectors[v]);
+    angles_.push_back(angle(i, d));
     const Double3 flat = d - ring.axis * dot(d, ring.axis);
     if (length(flat) <= inner) continue;
     residual += (length(flat) - ring.radius) * (length(flat) - ring.radius);
-    ring.polygon.emplace_back(angle(i, ring.centre + d), ring.centre + d);
+    corners_.push_back({angles_.back(), ring.centre + d});
   }
-  std::sort(ring.polygon.begin(), ring.polygon.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  const std::size_t n = ring.polygon.size();
+  const std::span<RingCorner> polygon = std::span(corners_).subspan(base);
+  std::stable_sort(polygon.begin(), polygon.end(),
+                   [](const RingCorner& a, const RingCorner& b) { return a.angle < b.angle; });
+  const std::size_t n = polygon.size();
   bool round = n >= 3 && n <= 64;
   for (std::size_t j = 0; round && j < n; ++j) {
-    const double gap = j + 1 < n ? ring.polygon[j + 1].first - ring.polygon[j].first
-                                 : ring.polygon[0].first + k_turn - ring.polygon[j].first;
-    const Double3 d = ring.polygon[j].second - ring.centre;
+    const double gap =
+        j + 1 < n ? polygon[j + 1].angle - polygon[j].angle : polygon[0].angle + k_turn - polygon[j].angle;
+    const Double3 d = polygon[j].place - ring.centre;
     round = gap > 1e-4 && gap < k_widest_gap && std::abs(dot(d, ring.axis)) < 1.2 * ring.radius;
   }
   if (round) {
     ring.sides = static_cast<std::uint32_t>(n);
     for (std::size_t j = 0; j < n; ++j)
-      ring.perimeter += distance(ring.polygon[j].second, ring.polygon[(j + 1) % n].second);
+      ring.perimeter += distance(polygon[j].place, polygon[(j + 1) % n].place);
   } else {
     ring.residual = n == 0 ? 0 : std::sqrt(residual / static_cast<double>(n));
-    ring.polygon.clear();
+    corners_.resize(base);
     ring.perimeter = k_turn * ring.radius;
   }
 }
 
 // What the triangles of an interval say: its sides with their texture coordinates, whether it is a plain
 // band.
-void LimbShape::read_sides(std::size_t interval) {
+void LimbShape::read_sides(std::size_t interval, std::array<std::vector<RingSide>, 2>& scratch) {
   const std::uint32_t s = limb_.segments[interval];
   const std::size_t first[2] = {tree_.first_vector_of(limb_.radii[interval]),
                                 tree_.first_vector_of(limb_.radii[interval + 1])};
@@ -125,11 +141,17 @@ void LimbShape::read_sides(std::size_t interval) {
     const std::uint32_t p = trunk_.position_of[v];
     return p >= first[0] && p < end[0] ? 0 : p >= first[1] && p < end[1] ? 1 : 2;
   };
+  const auto angle_of = [&](std::uint32_t v, std::size_t e) {
+    return angles_[first_angle_[interval + e] + (trunk_.position_of[v] - first[e])];
+  };
+  for (auto& list : scratch) list.clear();
   bool plain = true, lid = false;
   std::size_t band = 0;
+  double area = 0;
   for (std::size_t t = tree_.first_triangle_of_segment(s); t < tree_.first_triangle_of_segment(s + 1); ++t) {
     if (t >= trunk_.triangles.size()) break;
     const auto& corners = trunk_.triangles[t];
+    area += area_of(corners);
     const int on[3] = {ring_of(corners[0]), ring_of(corners[1]), ring_of(corners[2])};
     if (on[0] == 2 || on[1] == 2 || on[2] == 2) {
       plain = false;
@@ -148,23 +170,58 @@ void LimbShape::read_sides(std::size_t interval) {
       if (on[c] != on[d]) continue;
       const auto e = static_cast<std::size_t>(on[c]);
       const SpectrumVertex &a = trunk_.vertices[corners[c]], &b = trunk_.vertices[corners[d]];
-      RingSide side{angle(interval + e, to_double(a.position)), angle(interval + e, to_double(b.position)),
-                    a.texcoord, b.texcoord};
+      RingSide side{angle_of(corners[c], e), angle_of(corners[d], e), a.texcoord, b.texcoord};
       if (positive(side.to - side.from) > std::numbers::pi) {
         std::swap(side.from, side.to);
         std::swap(side.at_from, side.at_to);
       }
       side.to = side.from + positive(side.to - side.from);
-      sides_[interval][e].push_back(side);
+      scratch[e].push_back(side);
     }
   }
-  for (auto& list : sides_[interval])
-    std::sort(list.begin(), list.end(), [](const RingSide& a, const RingSide& b) { return a.from < b.from; });
+  for (auto& list : scratch) {
+    std::stable_sort(list.begin(), list.end(),
+                     [](const RingSide& a, const RingSide& b) { return a.from < b.from; });
+    sides_.insert(sides_.end(), list.begin(), list.end());
+    first_side_.push_back(static_cast<std::uint32_t>(sides_.size()));
+  }
   const std::size_t ka = rings_[interval].sides, kb = rings_[interval + 1].sides;
   const bool cone = interval + 2 == rings_.size() && (pointed_ || end[1] - first[1] == 1);
   regular_[interval] =
       plain && ka >= 3 && (kb >= 3 || cone) && band >= ka && band <= ka + std::max<std::size_t>(kb, 1);
   if (interval + 2 == rings_.size()) capped_ = lid && !pointed_;
+  if (!regular_[interval] && is_fork(interval)) narrow(interval, area);
+}
+
+// Whether surfaces of several limbs begin at the ring.
+bool LimbShape::is_fork(std::size_t i) const {
+  const Radius& r = tree_.hierarchy.radii[limb_.radii[i]];
+  if (r.flags & Radius::terminal) return false;
+  std::uint32_t surfaces = 0;
+  for (std::uint32_t c = r.first_child; c < r.first_child + r.child_count; ++c)
+    surfaces += (tree_.hierarchy.radii[c].flags & Radius::joint) == 0;
+  return surfaces > 1;
+}
+
+// Where limbs are welded together a ring goes round all of them. Seen from all round a closed surface covers
+// a quarter of its area, so the tube begins as narrow as gives it the area of the mesh's own triangles.
+void LimbShape::narrow(std::size_t interval, double area) {
+  const RingShape &low = rings_[interval], &high = rings_[interval + 1];
+  const double along = along_[interval + 1] - along_[interval],
+               slant = std::hypot(along, (low.perimeter - high.perimeter) / k_turn);
+  if (!(slant > 0) || !(low.perimeter > 0)) return;
+  narrowed_[interval] = std::clamp((2 * area / slant - high.perimeter) / low.perimeter, k_narrowest, 1.0);
+}
+
+double LimbShape::area_of(const std::array<std::uint32_t, 3>& corners) const {
+  const Double3 a = to_double(trunk_.vertices[corners[0]].position),
+                b = to_double(trunk_.vertices[corners[1]].position),
+                c = to_double(trunk_.vertices[corners[2]].position);
+  return 0.5 * length(cross(b - a, c - a));
+}
+
+double LimbShape::width(std::size_t i, std::size_t interval) const {
+  return i == interval ? narrowed_[interval] : 1;
 }
 
 bool LimbShape::regular() const {
@@ -191,45 +248,49 @@ void LimbShape::choose_phases() {
     const double before = i == 0 ? 0 : rings_[i - 1].phase;
     ring.phase = before;
     double nearest = k_turn;
-    for (const auto& [at, place] : ring.polygon) {
-      const double off = std::abs(std::remainder(at - before, k_turn));
-      if (off < nearest) nearest = off, ring.phase = at;
+    for (const RingCorner& corner : polygon(i)) {
+      const double off = apart(corner.angle, before);
+      if (off < nearest) nearest = off, ring.phase = corner.angle;
     }
     const std::size_t interval = i + 1 < rings_.size() ? i : i - 1;
-    const auto& list = sides_[interval][i - interval];
+    const std::span<const RingSide> list = sides_of(interval, i - interval);
     for (std::size_t j = 0; j < list.size(); ++j) {
       const RingSide &a = list[j], &b = list[(j + 1) % list.size()];
-      const bool joined = std::abs(std::remainder(a.to - b.from, k_turn)) < 1e-6;
-      if (joined && !near_texcoord(a.at_to, b.at_from)) ring.phase = positive(b.from);
+      if (apart(a.to, b.from) < 1e-6 && !near_texcoord(a.at_to, b.at_from)) ring.phase = positive(b.from);
     }
   }
 }
 
 Double3 LimbShape::sample(std::size_t i, double angle) const {
   const RingShape& ring = rings_[i];
-  const Double3 out = ring.x * std::cos(angle) + ring.y * std::sin(angle);
-  if (ring.polygon.empty()) return ring.centre + out * ring.radius;
+  const std::span<const RingCorner> corners = polygon(i);
+  if (corners.empty())
+    return ring.centre + (ring.x * std::cos(angle) + ring.y * std::sin(angle)) * ring.radius;
   angle = positive(angle);
-  const auto next = std::upper_bound(ring.polygon.begin(), ring.polygon.end(), angle,
-                                     [](double a, const auto& p) { return a < p.first; });
-  const auto& b = next == ring.polygon.end() ? ring.polygon.front() : *next;
-  const auto& a = next == ring.polygon.begin() ? ring.polygon.back() : *std::prev(next);
-  const double width = positive(b.first - a.first), at = positive(angle - a.first);
+  const auto next = std::upper_bound(corners.begin(), corners.end(), angle,
+                                     [](double a, const RingCorner& c) { return a < c.angle; });
+  const RingCorner& b = next == corners.end() ? corners.front() : *next;
+  const RingCorner& a = next == corners.begin() ? corners.back() : *std::prev(next);
+  const double width = positive(b.angle - a.angle), at = positive(angle - a.angle);
   // By angle, not by length: where the ray leaves the side is near enough.
-  return a.second + (b.second - a.second) * (width > 0 ? std::min(at / width, 1.0) : 0);
+  return a.place + (b.place - a.place) * (width > 0 ? std::min(at / width, 1.0) : 0);
 }
 
 Float2 LimbShape::texcoord(std::size_t i, std::size_t interval, double angle, double towards) const {
   const std::size_t e = i - interval;
-  const auto& list = sides_[interval][e];
+  const std::span<const RingSide> list = sides_of(interval, e);
   if (list.empty()) {
     // A point has no sides: across from the other end, along from its own.
-    const auto& other = sides_[interval][1 - e];
-    if (other.empty()) return any_texcoord_[interval][e];
+    if (sides_of(interval, 1 - e).empty()) return any_texcoord_[interval][e];
     return {texcoord(interval + 1 - e, interval, angle, towards).x, any_texcoord_[interval][e].y};
   }
-  const double inside = angle + towards * 1e-3;
-  for (const RingSide& side : list) {
+  const double inside = positive(angle + towards * 1e-3);
+  // The last side that begins before it; where sides overlap or lack, any one round it.
+  const auto after = std::upper_bound(list.begin(), list.end(), inside,
+                                      [](double a, const RingSide& s) { return a < s.from; });
+  const auto n = static_cast<std::size_t>(after - list.begin()) + list.size() - 1;
+  for (std::size_t j = 0; j < list.size(); ++j) {
+    const RingSide& side = list[(n - j) % list.size()];
     const double at = positive(inside - side.from), width = side.to - side.from;
     if (at > width || width <= 0) continue;
     const auto w = static_cast<float>(std::clamp((at - towards * 1e-3) / width, 0.0, 1.0));
@@ -255,7 +316,10 @@ void LimbShape::errors(std::size_t a, std::size_t b, double& area, double& large
     const double off = length(d - chord * dot(d, chord));
     const double thick =
         std::abs(rings_[i].radius - (rings_[a].radius + w * (rings_[b].radius - rings_[a].radius)));
-    sum += off + 0.5 * thick;
+    // What is seen of a limb that moved aside is what it covers no more and what it covers anew: no more than
+    // all of it, however far it went.
+    const double most = 2 * k_apart_widths * rings_[i].radius;
+    sum += (off > 0 ? off * most / (off + most) : 0) + 0.5 * thick;
     largest = std::max(largest, off + thick);
   }
   area = taken == 0 ? 0
@@ -281,37 +345,57 @@ std::uint32_t LimbShape::triangles(std::size_t kept, std::uint32_t sides) const 
   return 2 * sides * bands - (pointed_ ? sides : 0) + (capped_ ? sides - 2 : 0);
 }
 
-std::vector<SpectrumVertex> LimbShape::ring_vertices(std::size_t i, std::size_t interval, std::uint32_t sides,
-                                                     double ribbon_angle) const {
+Float2 LimbShape::ring_texcoord(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
+                                std::size_t j) const {
+  if (sides == 2) return texcoord(i, interval, ribbon_angle + (j == 0 ? std::numbers::pi : 0), 1);
+  return texcoord(i, interval, rings_[i].phase + k_turn * static_cast<double>(j) / sides,
+                  j == sides ? -1 : 1);
+}
+
+void LimbShape::append_ring(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
+                            std::vector<SpectrumVertex>& out) const {
   const RingShape& ring = rings_[i];
-  std::vector<SpectrumVertex> out;
+  const auto texture = [&](std::size_t j) { return ring_texcoord(i, interval, sides, ribbon_angle, j); };
   if (sides == 2) {
     const Double3 wide = ring.x * std::cos(ribbon_angle) + ring.y * std::sin(ribbon_angle);
     const Double3 face = cross(wide, ring.axis);
-    const double half = k_ribbon_width * ring.perimeter / k_turn;
-    for (const double side : {-1.0, 1.0}) {
-      const double at = ribbon_angle + (side < 0 ? std::numbers::pi : 0);
+    const double half = k_ribbon_width * width(i, interval) * ring.perimeter / k_turn;
+    for (const double side : {-1.0, 1.0})
       out.push_back({to_float(ring.centre + wide * (side * half)), to_float(normalized(face + wide * side)),
-                     texcoord(i, interval, at, 1)});
-    }
-    return out;
+                     texture(side < 0 ? 0 : 1)});
+    return;
   }
-  std::vector<Double3> places;
+  const std::size_t first = out.size();
+  std::vector<Double3> places(sides);
   double perimeter = 0;
-  for (std::uint32_t j = 0; j < sides; ++j) places.push_back(sample(i, ring.phase + k_turn * j / sides));
+  for (std::uint32_t j = 0; j < sides; ++j) places[j] = sample(i, ring.phase + k_turn * j / sides);
   for (std::uint32_t j = 0; j < sides; ++j) perimeter += distance(places[j], places[(j + 1) % sides]);
   // As wide, seen from all round, as the ring itself: the mean width of a convex outline is its perimeter /
   // pi.
-  const double scale = perimeter > 0 ? std::min(ring.perimeter / perimeter, 1.5) : 1;
-  for (std::uint32_t j = 0; j <= sides; ++j) {
-    const Double3 out_of = places[j % sides] - ring.centre;
-    const double at = ring.phase + k_turn * j / sides;
+  const double scale = width(i, interval) * (perimeter > 0 ? std::min(ring.perimeter / perimeter, 1.5) : 1);
+  for (std::uint32_t j = 0; j < sides; ++j) {
+    const Double3 out_of = places[j] - ring.centre;
     const Double3 flat = out_of - ring.axis * dot(out_of, ring.axis);
-    out.push_back({to_float(ring.centre + out_of * scale),
-                   to_float(normalized(flat, ring.x * std::cos(at) + ring.y * std::sin(at))),
-                   texcoord(i, interval, at, j == sides ? -1 : 1)});
+    const double at = ring.phase + k_turn * j / sides;
+    const bool point = dot(flat, flat) == 0;
+    const Double3 normal = point ? ring.x * std::cos(at) + ring.y * std::sin(at) : normalized(flat);
+    out.push_back({to_float(ring.centre + out_of * scale), to_float(normal), texture(j)});
   }
-  return out;
+  out.push_back(out[first]);
+  out.back().texcoord = texture(sides);
+}
+
+std::array<SpectrumVertex, 3> LimbShape::spike(double ribbon_angle) const {
+  const std::size_t last = rings_.size() - 1;
+  std::vector<SpectrumVertex> low, high;
+  append_ring(0, 0, 2, ribbon_angle, low);
+  append_ring(last, last - 1, 2, ribbon_angle, high);
+  const double first_width = width(0, 0) * rings_[0].perimeter;
+  const double wider = first_width > 0 ? 1 + rings_[last].perimeter / first_width : 1;
+  for (SpectrumVertex& v : low)
+    v.position = to_float(rings_[0].centre + (to_double(v.position) - rings_[0].centre) * wider);
+  high[0].position = to_float(rings_[last].centre);
+  return {low[0], low[1], high[0]};
 }
 
 }  // namespace copse

@@ -27,7 +27,12 @@ struct RingShape {
   double phase = 0;            // angle of the first vertex of a ring that is made: at the seam of the texture
   double residual = 0;         // rms distance of the ring's vertices from its polygon or circle
   std::uint32_t sides = 0;     // of the polygon; 0: a circle stands for it
-  std::vector<std::pair<double, Double3>> polygon;  // angle and place, by ascending angle
+};
+
+// A corner of a ring's polygon.
+struct RingCorner {
+  double angle = 0;
+  Double3 place;
 };
 
 class LimbShape {
@@ -49,7 +54,8 @@ class LimbShape {
   std::uint32_t material(std::size_t interval) const;
 
   // Mean distance, times length, between the tube that goes straight from ring a to ring b and the rings that
-  // it leaves out: square metres of silhouette. Looks at no more than 16 of them.
+  // it leaves out, saturating at two diameters: square metres of silhouette. Looks at no more than 16 of
+  // them.
   double area_error(std::size_t a, std::size_t b) const;
   // The largest distance of the same.
   double largest_error(std::size_t a, std::size_t b) const;
@@ -58,17 +64,36 @@ class LimbShape {
   // closed tube, 2 a flat ribbon.
   std::uint32_t triangles(std::size_t kept, std::uint32_t sides) const;
 
-  // The vertices of ring i with so many sides as they are in interval `interval` (i or i - 1): sides + 1, the
-  // last one where the first one is (the seam).
-  std::vector<SpectrumVertex> ring_vertices(std::size_t i, std::size_t interval, std::uint32_t sides,
-                                            double ribbon_angle) const;
+  // Of what a ring measures, how much the tube has that begins or ends there in interval `interval` (i or i -
+  // 1): less than 1 at the beginning of a limb that is welded to others.
+  double width(std::size_t i, std::size_t interval) const;
+
+  // Appends the vertices of ring i with so many sides, two at least, as they are in interval `interval` (i or
+  // i - 1): sides + 1, the last one where the first one is (the seam); two of a ribbon.
+  void append_ring(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
+                   std::vector<SpectrumVertex>& out) const;
+  // The texture coordinate of vertex j of the same.
+  Float2 ring_texcoord(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
+                       std::size_t j) const;
+  // The limb as one triangle, as large as the ribbon from its first to its last ring, its tip at the last.
+  std::array<SpectrumVertex, 3> spike(double ribbon_angle) const;
 
  private:
+  std::span<const RingCorner> polygon(std::size_t i) const {
+    return std::span(corners_).subspan(first_corner_[i], rings_[i].sides);
+  }
+  std::span<const RingSide> sides_of(std::size_t interval, std::size_t end) const {
+    const std::size_t list = 2 * interval + end;
+    return std::span(sides_).subspan(first_side_[list], first_side_[list + 1] - first_side_[list]);
+  }
   void make_frames(const std::vector<Double3>& centres);
   void read_ring(std::size_t i);
-  void read_sides(std::size_t interval);
+  void read_sides(std::size_t interval, std::array<std::vector<RingSide>, 2>& scratch);
+  bool is_fork(std::size_t i) const;
+  void narrow(std::size_t interval, double area);
+  double area_of(const std::array<std::uint32_t, 3>& corners) const;
   void choose_phases();
-  double angle(std::size_t i, const Double3& p) const;
+  double angle(std::size_t i, const Double3& from_centre) const;
   Double3 sample(std::size_t i, double angle) const;
   Float2 texcoord(std::size_t i, std::size_t interval, double angle, double towards) const;
   void errors(std::size_t a, std::size_t b, double& area, double& largest) const;
@@ -78,9 +103,15 @@ class LimbShape {
   const LimbChain& limb_;
   std::vector<RingShape> rings_;
   std::vector<double> along_;
-  std::vector<std::array<std::vector<RingSide>, 2>> sides_;  // of every interval, at its two rings
-  std::vector<std::array<Float2, 2>> any_texcoord_;          // of every interval, at its two rings
+  std::vector<RingCorner> corners_;           // of all polygons, each by ascending angle
+  std::vector<std::uint32_t> first_corner_;   // of each ring
+  std::vector<double> angles_;                // of all vectors of the rings
+  std::vector<std::uint32_t> first_angle_;    // of each ring, and the end
+  std::vector<RingSide> sides_;               // of every interval at its two rings, each by ascending angle
+  std::vector<std::uint32_t> first_side_{0};  // two an interval, and the end
+  std::vector<std::array<Float2, 2>> any_texcoord_;  // of every interval, at its two rings
   std::vector<std::uint8_t> regular_;
+  std::vector<double> narrowed_;  // of every interval, at its first ring
   bool pointed_ = false, capped_ = false;
 };
 

@@ -38,6 +38,16 @@ std::vector<std::uint32_t> kept_steps(const std::vector<std::int64_t>& counts) {
   return kept;
 }
 
+// Stable, by a key from 0 to `largest`.
+template <class Key>
+void sort_by(std::vector<std::uint32_t>& numbers, std::size_t largest, Key key) {
+  std::vector<std::uint32_t> first(largest + 2, 0), out(numbers.size());
+  for (const std::uint32_t n : numbers) ++first[key(n) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  for (const std::uint32_t n : numbers) out[first[key(n)]++] = n;
+  numbers.swap(out);
+}
+
 }  // namespace
 
 std::uint32_t SpectrumBuilder::vertex(const SpectrumVertex& vertex) {
@@ -47,10 +57,15 @@ std::uint32_t SpectrumBuilder::vertex(const SpectrumVertex& vertex) {
 
 std::uint32_t SpectrumBuilder::element(std::uint32_t material, std::uint32_t radius,
                                        std::span<const std::array<std::uint32_t, 3>> triangles) {
-  elements_.push_back({.birth = steps(), .death = k_none, .material = material, .radius = radius});
+  alive_ += triangles.size();
+  return element({.birth = steps(), .death = k_none, .material = material, .radius = radius}, triangles);
+}
+
+std::uint32_t SpectrumBuilder::element(const SpectrumElement& element,
+                                       std::span<const std::array<std::uint32_t, 3>> triangles) {
+  elements_.push_back(element);
   triangles_.insert(triangles_.end(), triangles.begin(), triangles.end());
   first_.push_back(static_cast<std::uint32_t>(triangles_.size()));
-  alive_ += triangles.size();
   return static_cast<std::uint32_t>(elements_.size() - 1);
 }
 
@@ -77,16 +92,18 @@ Spectrum SpectrumBuilder::finish() {
     if (element.death != k_none) element.death = kept[element.death];
     if (element.birth < element.death && first_[e] != first_[e + 1]) order.push_back(e);
   }
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const SpectrumElement &x = elements_[a], &y = elements_[b];
-    return x.death != y.death ? x.death > y.death : x.birth < y.birth;
-  });
+  const std::size_t states = errors_.size();
+  sort_by(order, states, [&](std::uint32_t e) { return elements_[e].birth; });
+  sort_by(order, states,
+          [&](std::uint32_t e) { return elements_[e].death == k_none ? 0 : states - elements_[e].death; });
 
   std::vector<std::uint32_t> number(vertices_.size(), k_none), first{0}, stored_counts;
   std::vector<SpectrumVertex> vertices;
   std::vector<SpectrumElement> elements;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<float> errors;
+  vertices.reserve(vertices_.size()), triangles.reserve(triangles_.size());
+  elements.reserve(order.size()), first.reserve(order.size() + 1);
   for (const std::uint32_t e : order) {
     elements.push_back(elements_[e]);
     for (std::uint32_t t = first_[e]; t < first_[e + 1]; ++t) {

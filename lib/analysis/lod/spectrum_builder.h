@@ -27,6 +27,9 @@ class SpectrumBuilder {
   // holds until finish().
   std::uint32_t element(std::uint32_t material, std::uint32_t radius,
                         std::span<const std::array<std::uint32_t, 3>> triangles);
+  // An element whose whole life is known: its steps may be any that there are when finish() is called.
+  std::uint32_t element(const SpectrumElement& element,
+                        std::span<const std::array<std::uint32_t, 3>> triangles);
   // The element is gone from the current step on. An element that is removed in the step that made it never
   // was.
   void remove(std::uint32_t element);
@@ -35,7 +38,8 @@ class SpectrumBuilder {
   void step(double error);
 
   std::uint32_t steps() const { return static_cast<std::uint32_t>(errors_.size() - 1); }
-  std::uint64_t triangles() const { return alive_; }  // at the current step
+  // At the current step; only of elements that were made and removed step by step.
+  std::uint64_t triangles() const { return alive_; }
 
   // Sorts elements by descending death, then ascending birth, then number, and drops vertices that no element
   // uses. Triangle counts must not have grown from one step to the next: a step that adds more than it

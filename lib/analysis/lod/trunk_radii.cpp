@@ -6,126 +6,190 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <span>
+#include <vector>
 
 namespace copse {
 namespace {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using Face = std::array<std::uint32_t, 3>;
 
-// A limb while the spectrum is built: which elements stand for it now.
-class LimbState {
+constexpr double k_golden_angle = 2.399963229728653;
+
+// An element of one limb. Its life counts rungs of the limb: 0 is full detail, n what the nth rung makes.
+struct Piece {
+  std::uint32_t limb = 0, birth = 0, death = k_none;
+  std::uint32_t material = k_none, radius = k_none;
+  std::uint32_t first_face = 0, end_face = 0;
+};
+
+// What all limbs are made of. Faces number the trunk's own vertices first, then those that are made.
+struct Pieces {
+  std::vector<SpectrumVertex> made;
+  std::vector<Face> faces;
+  std::vector<Piece> pieces;
+};
+
+// One limb's tubes, rung after rung. Intervals that a rung leaves as they are keep their pieces.
+class LimbTubes {
  public:
-  LimbState(const Tree& tree, const std::vector<Double3>& centres, const PartTriangles& trunk,
-            const LimbChain& limb, std::uint32_t number)
-      : tree_(tree), limb_(limb), shape_(tree, centres, trunk, limb), number_(number) {}
+  LimbTubes(const Tree& tree, const PartTriangles& trunk, const LimbChain& limb, const LimbShape& shape,
+            std::uint32_t number, Pieces& out)
+      : tree_(tree), trunk_(trunk), limb_(limb), shape_(shape), number_(number), out_(out) {
+    rings_.resize(2 * shape.ring_count());
+  }
 
-  const LimbShape& shape() const { return shape_; }
-
-  void add_full_detail(const PartTriangles& trunk, SpectrumBuilder& builder) {
+  // Triangles of full detail.
+  std::uint32_t add_full_detail() {
+    std::uint32_t full = 0;
     for (std::uint32_t i = 0; i < limb_.segments.size(); ++i) {
+      Interval interval{.a = i, .b = i + 1, .first_piece = piece_count()};
       const std::size_t first = tree_.first_triangle_of_segment(limb_.segments[i]),
                         end = std::min(tree_.first_triangle_of_segment(limb_.segments[i] + 1),
-                                       trunk.triangles.size());
-      for (std::size_t t = first; t < end;) {
-        std::size_t run = t;
-        while (run < end && trunk.materials[run] == trunk.materials[t]) ++run;
-        add(builder, {i, i + 1, 0}, trunk.materials[t],
-            {trunk.triangles.begin() + static_cast<std::ptrdiff_t>(t),
-             trunk.triangles.begin() + static_cast<std::ptrdiff_t>(run)});
-        full_ += static_cast<std::uint32_t>(run - t);
-        t = run;
+                                       trunk_.triangles.size());
+      for (std::size_t t = first; t < end; ++t) {
+        if (t == first || trunk_.materials[t] != trunk_.materials[t - 1])
+          begin(interval, 0, trunk_.materials[t]);
+        add(trunk_.triangles[t]);
+        ++full;
       }
+      interval.end_piece = piece_count();
+      now_.push_back(interval);
     }
+    return full;
   }
-  std::uint32_t full() const { return full_; }
 
-  // Replaces what stands for the limb by the tube of a rung; intervals that stay as they are keep their
-  // elements.
-  void take(const LimbRung& rung, SpectrumBuilder& builder) {
-    std::map<Interval, std::vector<std::uint32_t>> old;
-    old.swap(elements_);
+  // Rung `birth` of the ladder takes the place of what is there.
+  void take(const LimbRung& rung, std::uint32_t birth) {
+    before_.swap(now_), now_.clear();
+    auto old = before_.begin();
     for (std::size_t i = 0; i + 1 < rung.kept.size(); ++i) {
       const std::uint32_t a = rung.kept[i], b = rung.kept[i + 1];
       const bool own = b == a + 1 && rung.sides == shape_.sides() && shape_.regular(a);
-      const bool last = i + 2 == rung.kept.size();
-      const Interval interval{a, b, own ? 0 : rung.sides};
-      if (const auto at = old.find(interval); at != old.end()) {
-        elements_.insert(old.extract(at));
-      } else {
-        add(builder, interval, shape_.material(a), tube(builder, a, b, rung.sides, last));
+      Interval interval{.a = a, .b = b, .sides = own ? 0 : rung.sides, .first_piece = piece_count()};
+      while (old != before_.end() && old->a < a) bury(*old++, birth);
+      if (old != before_.end() && old->a == a && old->b == b && old->sides == interval.sides) {
+        now_.push_back(*old++);
+        continue;
       }
+      begin(interval, birth, shape_.material(a));
+      add_tube(a, b, rung.sides, i + 2 == rung.kept.size());
+      interval.end_piece = piece_count();
+      now_.push_back(interval);
     }
-    for (const auto& [interval, elements] : old) {
-      for (const std::uint32_t e : elements) builder.remove(e);
-    }
+    while (old != before_.end()) bury(*old++, birth);
   }
 
  private:
+  // Between two rings of the limb.
   struct Interval {
-    std::uint32_t a, b, sides;  // sides 0: the mesh's own triangles
-    auto operator<=>(const Interval&) const = default;
+    std::uint32_t a = 0, b = 0, sides = 0;  // sides 0: the mesh's own triangles
+    std::uint32_t first_piece = 0, end_piece = 0;
+  };
+  // The vertices of a ring as the interval before or behind it has them.
+  struct Ring {
+    std::uint32_t sides = 0, first = 0;
   };
 
-  void add(SpectrumBuilder& builder, const Interval& interval, std::uint32_t material,
-           const Triangles& triangles) {
-    elements_[interval].push_back(builder.element(material, limb_.radii[interval.b], triangles));
+  std::uint32_t piece_count() const { return static_cast<std::uint32_t>(out_.pieces.size()); }
+  void begin(const Interval& interval, std::uint32_t birth, std::uint32_t material) {
+    const auto faces = static_cast<std::uint32_t>(out_.faces.size());
+    out_.pieces.push_back({.limb = number_,
+                           .birth = birth,
+                           .material = material,
+                           .radius = limb_.radii[interval.b],
+                           .first_face = faces,
+                           .end_face = faces});
+  }
+  void add(const Face& face) {
+    out_.faces.push_back(face);
+    ++out_.pieces.back().end_face;
+  }
+  void bury(const Interval& interval, std::uint32_t death) {
+    for (std::uint32_t p = interval.first_piece; p < interval.end_piece; ++p) out_.pieces[p].death = death;
   }
 
-  // The vertices of a ring as they are in an interval; equal ones of both intervals are shared.
-  const std::vector<std::uint32_t>& ring(SpectrumBuilder& builder, std::uint32_t i, std::uint32_t interval,
-                                         std::uint32_t sides) {
-    std::vector<std::uint32_t>& numbers = rings_[{i, interval, sides}];
-    if (!numbers.empty()) return numbers;
-    // The golden angle: ribbons of neighbouring limbs face different ways.
-    const double angle = std::fmod(number_ * 2.399963229728653, std::numbers::pi);
-    const std::vector<SpectrumVertex> vertices = shape_.ring_vertices(i, interval, sides, angle);
-    const auto other = rings_.find({i, i == interval ? interval - 1 : i, sides});
-    for (std::size_t j = 0; j < vertices.size(); ++j) {
-      std::uint32_t same = k_none;
-      if (sides > 2 && j + 1 == vertices.size() && vertices[j].texcoord == vertices[0].texcoord)
-        same = numbers[0];
-      if (other != rings_.end() && same == k_none && made_[other->second[j]] == vertices[j])
-        same = other->second[j];
-      if (same == k_none) {
-        same = builder.vertex(vertices[j]);
-        made_[same] = vertices[j];
+  // The golden angle: ribbons of neighbouring limbs face different ways.
+  double ribbon_angle() const { return std::fmod(number_ * k_golden_angle, std::numbers::pi); }
+  std::uint32_t make(const SpectrumVertex& vertex) {
+    out_.made.push_back(vertex);
+    return static_cast<std::uint32_t>(trunk_.vertices.size() + out_.made.size() - 1);
+  }
+  const SpectrumVertex& made(std::uint32_t number) const {
+    return out_.made[number - trunk_.vertices.size()];
+  }
+
+  // Where the numbers of the vertices of a ring as they are in an interval begin in numbers_; equal vertices
+  // of both intervals are shared.
+  std::uint32_t ring(std::uint32_t i, std::uint32_t interval, std::uint32_t sides) {
+    Ring& own = rings_[2 * i + (i == interval ? 1 : 0)];
+    if (own.sides == sides) return own.first;
+    own = {sides, static_cast<std::uint32_t>(numbers_.size())};
+    const Ring& other = rings_[2 * i + (i == interval ? 0 : 1)];
+    const bool alike = other.sides == sides && (i == 0 || shape_.width(i, i) == shape_.width(i, i - 1));
+    scratch_.clear();
+    if (alike) {
+      for (std::uint32_t j = 0; j < (sides == 2 ? 2 : sides + 1); ++j) {
+        scratch_.push_back(made(numbers_[other.first + j]));
+        scratch_.back().texcoord = shape_.ring_texcoord(i, interval, sides, ribbon_angle(), j);
       }
-      numbers.push_back(same);
-    }
-    return numbers;
-  }
-
-  Triangles tube(SpectrumBuilder& builder, std::uint32_t a, std::uint32_t b, std::uint32_t sides, bool last) {
-    const bool point = last && shape_.pointed();
-    const std::uint32_t n = std::max(sides, 2u);
-    const std::vector<std::uint32_t> low = ring(builder, a, a, n), high = ring(builder, b, b - 1, n);
-    Triangles out;
-    if (sides == 1 || (sides == 2 && point)) {
-      out.push_back({low[0], low[1], high[0]});
-    } else if (sides == 2) {
-      out.push_back({low[0], low[1], high[1]});
-      out.push_back({low[0], high[1], high[0]});
     } else {
-      for (std::uint32_t j = 0; j < sides; ++j) {
-        out.push_back({low[j], low[j + 1], high[j + 1]});
-        if (!point) out.push_back({low[j], high[j + 1], high[j]});
-      }
-      for (std::uint32_t j = 1; last && shape_.capped() && j + 1 < sides; ++j)
-        out.push_back({high[0], high[j], high[j + 1]});
+      shape_.append_ring(i, interval, sides, ribbon_angle(), scratch_);
     }
-    return out;
+    for (std::size_t j = 0; j < scratch_.size(); ++j) {
+      const SpectrumVertex& v = scratch_[j];
+      if (j == sides && v.texcoord == scratch_[0].texcoord) {
+        numbers_.push_back(numbers_[own.first]);
+      } else if (alike && made(numbers_[other.first + j]) == v) {
+        numbers_.push_back(numbers_[other.first + j]);
+      } else {
+        numbers_.push_back(make(v));
+      }
+    }
+    return own.first;
+  }
+
+  void add_tube(std::uint32_t a, std::uint32_t b, std::uint32_t sides, bool last) {
+    if (sides == 1) {
+      const auto corners = shape_.spike(ribbon_angle());
+      add({make(corners[0]), make(corners[1]), make(corners[2])});
+      return;
+    }
+    const bool point = last && shape_.pointed();
+    const std::uint32_t first_low = ring(a, a, sides), first_high = ring(b, b - 1, sides);
+    const auto low = [&](std::uint32_t j) { return numbers_[first_low + j]; };
+    const auto high = [&](std::uint32_t j) { return numbers_[first_high + j]; };
+    if (sides == 2) {
+      add({low(0), low(1), point ? high(0) : high(1)});
+      if (!point) add({low(0), high(1), high(0)});
+      return;
+    }
+    for (std::uint32_t j = 0; j < sides; ++j) {
+      add({low(j), low(j + 1), high(j + 1)});
+      if (!point) add({low(j), high(j + 1), high(j)});
+    }
+    for (std::uint32_t j = 1; last && shape_.capped() && j + 1 < sides; ++j)
+      add({high(0), high(j), high(j + 1)});
   }
 
   const Tree& tree_;
+  const PartTriangles& trunk_;
   const LimbChain& limb_;
-  LimbShape shape_;
+  const LimbShape& shape_;
   std::uint32_t number_;
-  std::uint32_t full_ = 0;
-  std::map<Interval, std::vector<std::uint32_t>> elements_;
-  std::map<std::array<std::uint32_t, 3>, std::vector<std::uint32_t>> rings_;
-  std::map<std::uint32_t, SpectrumVertex> made_;
+  Pieces& out_;
+  std::vector<Interval> now_, before_;
+  std::vector<Ring> rings_;             // two of every ring: as the interval before it has it, and behind
+  std::vector<std::uint32_t> numbers_;  // of vertices
+  std::vector<SpectrumVertex> scratch_;
+};
+
+// What a limb's ladder costs.
+struct Ladder {
+  std::vector<LimbRung> rungs;  // without the rings that they keep
+  std::uint32_t full = 0;       // triangles
+  double thickest = 0;
 };
 
 struct Move {
@@ -147,16 +211,14 @@ std::vector<std::vector<std::uint8_t>> fork_rings(const Tree& tree, const std::v
 
 // All rungs of all limbs, cheapest saving first; a limb's rungs in order, its last one after those of what
 // grows from it.
-std::vector<Move> order_moves(const std::vector<LimbChain>& limbs,
-                              const std::vector<std::vector<LimbRung>>& ladders,
-                              const std::vector<std::uint32_t>& full) {
+std::vector<Move> order_moves(const std::vector<LimbChain>& limbs, const std::vector<Ladder>& ladders) {
   std::vector<Move> moves;
   std::vector<double> final_slope(limbs.size(), 0);
   std::vector<std::size_t> final_move(limbs.size(), 0);
   for (std::uint32_t l = 0; l < limbs.size(); ++l) {
-    double cost = 0, triangles = full[l], steepest = 0;
-    for (std::uint32_t r = 0; r < ladders[l].size(); ++r) {
-      const LimbRung& rung = ladders[l][r];
+    double cost = 0, triangles = ladders[l].full, steepest = 0;
+    for (std::uint32_t r = 0; r < ladders[l].rungs.size(); ++r) {
+      const LimbRung& rung = ladders[l].rungs[r];
       steepest = std::max(steepest, (rung.cost - cost) / (triangles - rung.triangles));
       cost = rung.cost, triangles = rung.triangles;
       final_move[l] = moves.size();
@@ -165,7 +227,7 @@ std::vector<Move> order_moves(const std::vector<LimbChain>& limbs,
     final_slope[l] = steepest;
   }
   for (std::size_t l = limbs.size(); l-- > 0;) {
-    if (!ladders[l].empty()) moves[final_move[l]].slope = final_slope[l];
+    if (!ladders[l].rungs.empty()) moves[final_move[l]].slope = final_slope[l];
     const std::uint32_t p = limbs[l].parent;
     if (p != k_none) final_slope[p] = std::max(final_slope[p], final_slope[l]);
   }
@@ -178,12 +240,11 @@ std::vector<Move> order_moves(const std::vector<LimbChain>& limbs,
 }
 
 // The thinnest limb first, each with all of its rungs, but none before what grows from it.
-void sort_by_diameter(const std::vector<LimbChain>& limbs, const std::vector<LimbState>& states,
+void sort_by_diameter(const std::vector<LimbChain>& limbs, const std::vector<Ladder>& ladders,
                       std::vector<Move>& moves) {
-  std::vector<double> thickest(limbs.size(), 0);
+  std::vector<double> thickest;
+  for (const Ladder& ladder : ladders) thickest.push_back(ladder.thickest);
   for (std::size_t l = limbs.size(); l-- > 0;) {
-    for (std::size_t i = 0; i < states[l].shape().ring_count(); ++i)
-      thickest[l] = std::max(thickest[l], states[l].shape().ring(i).radius);
     const std::uint32_t p = limbs[l].parent;
     if (p != k_none) thickest[p] = std::max(thickest[p], thickest[l]);
   }
@@ -193,41 +254,68 @@ void sort_by_diameter(const std::vector<LimbChain>& limbs, const std::vector<Lim
   });
 }
 
+Ladder climb(const Tree& tree, const std::vector<Double3>& centres, const PartTriangles& trunk,
+             const LimbChain& limb, std::uint32_t number, const std::vector<std::uint8_t>& forks,
+             const TrunkRadiiOptions& options, Pieces& pieces) {
+  const LimbShape shape(tree, centres, trunk, limb);
+  LimbTubes tubes(tree, trunk, limb, shape, number, pieces);
+  Ladder ladder{.rungs = {}, .full = tubes.add_full_detail(), .thickest = 0};
+  for (std::size_t i = 0; i < shape.ring_count(); ++i)
+    ladder.thickest = std::max(ladder.thickest, shape.ring(i).radius);
+  if (ladder.full == 0) return ladder;
+  ladder.rungs = limb_ladder(shape, forks, ladder.full, options.vanish, options.order);
+  for (std::uint32_t r = 0; r < ladder.rungs.size(); ++r) {
+    tubes.take(ladder.rungs[r], r + 1);
+    ladder.rungs[r].kept = {};
+  }
+  return ladder;
+}
+
+Spectrum in_order(const PartTriangles& trunk, const Pieces& pieces, const std::vector<Ladder>& ladders,
+                  const std::vector<Move>& moves) {
+  SpectrumBuilder builder(LodMethod::radii);
+  for (const SpectrumVertex& v : trunk.vertices) builder.vertex(v);
+  for (const SpectrumVertex& v : pieces.made) builder.vertex(v);
+  std::vector<std::uint32_t> first_rung{0}, step;  // of each limb; of each rung, the step that it makes
+  for (const Ladder& ladder : ladders)
+    first_rung.push_back(first_rung.back() + static_cast<std::uint32_t>(ladder.rungs.size()));
+  step.resize(first_rung.back());
+  double bound = 0;
+  for (const Move& move : moves) {
+    bound = std::max(bound, ladders[move.limb].rungs[move.rung].bound);
+    builder.step(bound);
+    step[first_rung[move.limb] + move.rung] = builder.steps();
+  }
+  const auto when = [&](const Piece& p, std::uint32_t rung) {
+    return rung == 0 || rung == k_none ? rung : step[first_rung[p.limb] + rung - 1];
+  };
+  for (const Piece& p : pieces.pieces)
+    builder.element({when(p, p.birth), when(p, p.death), p.material, p.radius},
+                    std::span(pieces.faces).subspan(p.first_face, p.end_face - p.first_face));
+  return builder.finish();
+}
+
 }  // namespace
 
 Spectrum trunk_by_radii(const Tree& tree, const TrunkRadiiOptions& options) {
   const PartTriangles trunk = trunk_triangles(tree);
-  SpectrumBuilder builder(LodMethod::radii);
-  for (const SpectrumVertex& v : trunk.vertices) builder.vertex(v);
   const std::vector<LimbChain> limbs = limb_chains(tree);
   if (limbs.empty()) {
+    SpectrumBuilder builder(LodMethod::radii);
+    for (const SpectrumVertex& v : trunk.vertices) builder.vertex(v);
     for (std::size_t t = 0; t < trunk.triangles.size(); ++t)
       builder.element(trunk.materials[t], k_none, std::span(&trunk.triangles[t], 1));
     return builder.finish();
   }
   const std::vector<Double3> centres = absolute_centres(tree);
   const auto forks = fork_rings(tree, limbs);
-  std::vector<LimbState> states;
-  std::vector<std::vector<LimbRung>> ladders(limbs.size());
-  std::vector<std::uint32_t> full;
-  states.reserve(limbs.size());
-  for (std::uint32_t l = 0; l < limbs.size(); ++l) {
-    states.emplace_back(tree, centres, trunk, limbs[l], l);
-    states[l].add_full_detail(trunk, builder);
-    full.push_back(states[l].full());
-    if (full[l] > 0)
-      ladders[l] = limb_ladder(states[l].shape(), forks[l], full[l], options.vanish, options.order);
-  }
-  std::vector<Move> moves = order_moves(limbs, ladders, full);
-  if (options.order == RemovalOrder::diameter) sort_by_diameter(limbs, states, moves);
-  double bound = 0;
-  for (const Move& move : moves) {
-    const LimbRung& rung = ladders[move.limb][move.rung];
-    bound = std::max(bound, rung.bound);
-    builder.step(bound);
-    states[move.limb].take(rung, builder);
-  }
-  return builder.finish();
+  Pieces pieces;
+  std::vector<Ladder> ladders;
+  for (std::uint32_t l = 0; l < limbs.size(); ++l)
+    ladders.push_back(climb(tree, centres, trunk, limbs[l], l, forks[l], options, pieces));
+  std::vector<Move> moves = order_moves(limbs, ladders);
+  if (options.order == RemovalOrder::diameter) sort_by_diameter(limbs, ladders, moves);
+  return in_order(trunk, pieces, ladders, moves);
 }
 
 }  // namespace copse

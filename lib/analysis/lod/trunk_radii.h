@@ -11,7 +11,7 @@ namespace copse {
 
 struct TrunkRadiiOptions {
   // What a limb that vanishes costs, in what a limb that shrinks to its axis costs.
-  double vanish = 1.3;
+  double vanish = 6;
   // Which rings of a limb go first. By diameter, limbs go thinnest first too (table 5.1); otherwise all limbs
   // share one order by cost a triangle.
   RemovalOrder order = RemovalOrder::silhouette;
