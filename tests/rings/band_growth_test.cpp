@@ -69,6 +69,18 @@ TEST(BandGrowth, WaitsAtAForkForTheOtherLimb) {
   expect_strips(s, bands);
 }
 
+TEST(BandGrowth, ReadsPastLimbsThatGrowOutOfTheBandBeyond) {
+  const int seats[] = {1, 2, 5};  // limbs one above the other, and one for itself
+  const Surface s = surface_of(shuffled(seated_limbs(8, seats, 3).mesh, 7));
+  Bands bands = none_of(s);
+  BandGrowth growth(s, bands);
+  growth.start_at_borders();
+  growth.run(false);
+  EXPECT_LT(bands.triangles.size(), s.triangles.size());
+  growth.read_past_limbs();
+  EXPECT_EQ(bands.triangles.size(), s.triangles.size());
+}
+
 TEST(BandGrowth, FindsNothingInsideASheet) {
   TrunkMesh sheet;
   for (int y = 0; y < 12; ++y) {
@@ -122,9 +134,11 @@ TEST(BandGrowth, IsSoundOnAnything) {
     growth.start_at_borders();
     growth.start_at_points(BandGrowth::Points::all);
     growth.run(false);
+    growth.read_past_limbs();
     growth.close_fans();
     growth.fill_collars();
     growth.run(true);
+    growth.read_past_limbs();
     expect_strips(s, bands);
   }
 }

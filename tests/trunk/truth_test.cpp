@@ -145,7 +145,9 @@ TEST(PoorTrees, AreRecoveredExactly) {
   };
   for (const Case& c :
        {Case{"cherry", "welded-forks,pointed", 5, 5000},  // k = 4: bands beside what is no point
-        Case{"pine", "laid-against", 5, 6000}}) {         // a twig that touches with both its ends
+        Case{"pine", "laid-against", 5, 6000},            // a twig that touches with both its ends
+        // no file order tells quads; k = 4: a limb that two other ends could sit on
+        Case{"oak", "extruded,shuffled", 31, 9000}, Case{"bush", "extruded,pointed,shuffled", 31, 9000}}) {
     const Exactness e = recover_grown(c.species, c.breaks, c.seed, c.triangles);
     EXPECT_TRUE(e.exact()) << c.species << ": " << e.found << " of " << e.rings << " rings, "
                            << e.parents_right << " parents, " << e.extra << " extra: " << e.first_fault;

@@ -22,6 +22,10 @@ double angle_between(const Double3& a, const Double3& b) {
   return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
+bool holds(const Triangle& t, std::uint32_t a, std::uint32_t b) {
+  return std::ranges::count(t, a) != 0 && std::ranges::count(t, b) != 0;
+}
+
 }  // namespace
 
 BandGrowth::BandGrowth(const Surface& surface, Bands& bands)
@@ -207,11 +211,12 @@ bool BandGrowth::continues_behind(const Fan& fan, int rings) {
 }
 
 bool BandGrowth::is_point(std::uint32_t v, const Fan& fan, Points which) {
-  if (fan.angle <= k_point_angle) return which == Points::all || continues_behind(fan, 2);
+  if (fan.angle <= k_point_angle) return which != Points::followed_by_rings || continues_behind(fan, 2);
   // The ring behind the link has as many vertices as the link when the link's have five triangles on average.
   std::uint64_t degrees = 0;
   for (const std::uint32_t x : fan.link) degrees += degree_[x];
-  return degree_[v] == fan.link.size() && degrees == 5 * fan.link.size() && continues_behind(fan, 2);
+  return degree_[v] == fan.link.size() && degrees == 5 * fan.link.size() &&
+         continues_behind(fan, which == Points::followed_by_a_ring ? 1 : 2);
 }
 
 void BandGrowth::read_fan(std::uint32_t v, const Fan& fan) {
@@ -306,44 +311,34 @@ static std::vector<Triangle> fill_polygon(std::span<const Double3> positions, st
   return triangles;
 }
 
-void BandGrowth::fill(std::uint32_t ring) {
-  const std::uint32_t band = ring / 2;
-  const std::vector<std::uint32_t> polygon(bands_.ring(ring).begin(), bands_.ring(ring).end());
-  struct Side {
-    std::uint32_t a, b, inside, outside;
-  };
+std::vector<BandGrowth::Side> BandGrowth::sides_of(std::uint32_t ring) const {
+  const auto polygon = bands_.ring(ring);
   std::vector<Side> sides;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const std::uint32_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    for (std::uint32_t j = bands_.first_triangle[band]; j < bands_.first_triangle[band + 1]; ++j) {
-      const std::uint32_t t = bands_.triangles[j];
-      if (std::ranges::count(triangles_[t], a) == 0 || std::ranges::count(triangles_[t], b) == 0) continue;
-      sides.push_back({a, b, t, beyond(t, a, b)});
+    for (const std::uint32_t t : bands_.triangles_of(ring / 2)) {
+      if (!holds(triangles_[t], a, b)) continue;
+      sides.push_back({a, b, t, across_[t][static_cast<std::size_t>(edge_between(triangles_[t], a, b))]});
       break;
     }
   }
-  std::vector<Corner> corners;
-  for (const std::uint32_t v : polygon) corners.push_back({v, k_none});
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    for (const Side& s : sides) {
-      if (s.a == polygon[i] && s.outside < bands_.band_of.size()) corners[i].band = bands_.band_of[s.outside];
-    }
-  }
+  return sides;
+}
+
+// Puts triangles into the hole that a ring's sides enclose. What lay across a side lies across them now.
+void BandGrowth::stand_in(std::span<const Side> sides, std::span<const Triangle> triangles) {
   const auto first = static_cast<std::uint32_t>(triangles_.size());
-  for (const Triangle& t : fill_polygon(surface_.positions, corners)) {
+  for (const Triangle& t : triangles) {
     triangles_.push_back(t);
     across_.push_back({k_none, k_none, k_none});
     claimed_.push_back(0);
     seen_.insert(seen_.end(), 3, 0);
   }
-  const auto holds = [&](std::uint32_t t, std::uint32_t a, std::uint32_t b) {
-    return std::ranges::count(triangles_[t], a) != 0 && std::ranges::count(triangles_[t], b) != 0;
-  };
   for (std::uint32_t t = first; t < triangles_.size(); ++t) {
     for (std::size_t e = 0; e < 3; ++e) {
       const std::uint32_t a = triangles_[t][e], b = triangles_[t][(e + 1) % 3];
       for (std::uint32_t u = first; u < triangles_.size(); ++u) {
-        if (u != t && holds(u, a, b)) across_[t][e] = u;
+        if (u != t && holds(triangles_[u], a, b)) across_[t][e] = u;
       }
       for (const Side& s : sides) {
         if (!((s.a == a && s.b == b) || (s.a == b && s.b == a))) continue;
@@ -354,12 +349,171 @@ void BandGrowth::fill(std::uint32_t ring) {
       }
     }
   }
+}
+
+// Undoes the last stand_in(), whose triangles nothing has claimed.
+void BandGrowth::take_back(std::span<const Side> sides) {
+  for (const Side& s : sides) {
+    if (s.outside == k_none) continue;
+    beyond(s.outside, s.a, s.b) = s.inside;
+    beyond(s.inside, s.a, s.b) = s.outside;
+  }
+  const std::size_t kept = triangles_.size() - (sides.size() - 2);
+  triangles_.resize(kept), across_.resize(kept), claimed_.resize(kept), seen_.resize(3 * kept);
+}
+
+void BandGrowth::fill(std::uint32_t ring) {
+  const std::vector<Side> sides = sides_of(ring);
+  std::vector<Corner> corners;
+  for (const std::uint32_t v : bands_.ring(ring)) corners.push_back({v, k_none});
+  for (Corner& corner : corners) {
+    for (const Side& s : sides) {
+      if (s.a == corner.vertex && s.outside < bands_.band_of.size()) corner.band = bands_.band_of[s.outside];
+    }
+  }
+  const auto first = static_cast<std::uint32_t>(triangles_.size());
+  const std::size_t size = corners.size();
+  stand_in(sides, fill_polygon(surface_.positions, std::move(corners)));
   for (std::uint32_t t = first; t < triangles_.size(); ++t) {
     for (std::size_t e = 0; e < 3; ++e) {
       if (!unread(across_[t][e])) {
-        queue_.push_back({t, triangles_[t][e], triangles_[t][(e + 1) % 3], limit_after(8 * polygon.size())});
+        queue_.push_back({t, triangles_[t][e], triangles_[t][(e + 1) % 3], limit_after(8 * size)});
       }
     }
+  }
+}
+
+// The rings of other bands that share sides with a ring that has something unread beyond other sides; none
+// where a border runs.
+std::vector<std::uint32_t> BandGrowth::limbs_beyond(std::uint32_t ring) const {
+  std::vector<std::uint32_t> limbs;
+  bool is_open = false;
+  for (const Side& s : sides_of(ring)) {
+    if (s.outside == k_none) return {};
+    is_open |= unread(s.outside);
+    if (unread(s.outside) || s.outside >= bands_.band_of.size()) continue;
+    const std::uint32_t first = 2 * bands_.band_of[s.outside];
+    for (const std::uint32_t r : {first, first + 1}) {
+      const auto other = bands_.ring(r);
+      if (other.size() < 3 || other.size() > k_widest_collar) continue;
+      if (std::ranges::count(other, s.a) != 0 && std::ranges::count(other, s.b) != 0) limbs.push_back(r);
+    }
+  }
+  std::ranges::sort(limbs);
+  limbs.erase(std::unique(limbs.begin(), limbs.end()), limbs.end());
+  return is_open ? limbs : std::vector<std::uint32_t>{};
+}
+
+// A strip of triangles between the sides of a polygon that are on_ring, which must follow one another, and
+// all its other corners; none where there is no such strip.
+static std::vector<Triangle> strip_across(std::span<const Double3> positions,
+                                          std::span<const std::uint32_t> polygon,
+                                          std::span<const std::uint8_t> on_ring) {
+  const std::size_t n = polygon.size();
+  std::size_t begin = n, runs = 0, sides = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    sides += on_ring[i];
+    if (on_ring[i] && !on_ring[(i + n - 1) % n]) begin = i, ++runs;
+  }
+  if (runs != 1 || sides + 2 > n) return {};
+  // From the side before the run both chains go the same way.
+  std::vector<Triangle> triangles;
+  std::size_t near = 0, far = 0;
+  const std::size_t far_sides = n - sides - 2;
+  const auto near_at = [&](std::size_t i) { return polygon[(begin + i) % n]; };
+  const auto far_at = [&](std::size_t i) { return polygon[(begin + 2 * n - 1 - i) % n]; };
+  while (near < sides || far < far_sides) {
+    const std::uint32_t a = near_at(near), b = far_at(far);
+    const double along_near = near < sides ? distance(positions[near_at(near + 1)], positions[b])
+                                           : std::numeric_limits<double>::infinity();
+    const double along_far = far < far_sides ? distance(positions[a], positions[far_at(far + 1)])
+                                             : std::numeric_limits<double>::infinity();
+    if (along_near <= along_far) {
+      triangles.push_back({a, near_at(++near), b});
+    } else {
+      triangles.push_back({a, far_at(++far), b});
+    }
+  }
+  return triangles;
+}
+
+// Closes the hole of the limb that ends in `ring`, which the band `band` borders on one arc.
+bool BandGrowth::close_strip(std::uint32_t ring, std::uint32_t band) {
+  const std::vector<Side> sides = sides_of(ring);
+  std::vector<std::uint8_t> on_ring;
+  for (const Side& s : sides) {
+    on_ring.push_back(s.outside < bands_.band_of.size() && bands_.band_of[s.outside] == band);
+  }
+  if (sides.size() != bands_.ring(ring).size()) return false;
+  const std::vector<Triangle> strip = strip_across(surface_.positions, bands_.ring(ring), on_ring);
+  if (strip.empty()) return false;
+  stand_in(sides, strip);
+  return true;
+}
+
+bool BandGrowth::read_past_limbs(std::uint32_t ring, std::size_t most) {
+  const std::vector<std::uint32_t> limbs = limbs_beyond(ring);
+  if (limbs.empty() || limbs.size() > most) return false;
+  std::vector<std::vector<Side>> closed;
+  for (const std::uint32_t limb : limbs) {
+    std::vector<Side> sides = sides_of(limb);
+    if (!close_strip(limb, ring / 2)) break;
+    closed.push_back(std::move(sides));
+  }
+  bool good = closed.size() == limbs.size();
+  if (good) {
+    const Side s = sides_of(ring)[0];
+    good = unread(s.outside) && walk({s.outside, s.a, s.b, limit_after(bands_.ring(ring).size())}) &&
+           is_strip() && step_.ring.size() == bands_.ring(ring).size() &&
+           step_.next.size() == step_.ring.size();
+  }
+  if (good) {
+    commit();
+    return true;
+  }
+  while (!closed.empty()) {
+    take_back(closed.back());
+    closed.pop_back();
+  }
+  return false;
+}
+
+void BandGrowth::read_past_limbs() {
+  // One limb first: a limb of four sides can pass for what two other ends sit on.
+  read_past_limbs_of(1);
+  read_past_limbs_of(k_widest_collar);
+}
+
+void BandGrowth::read_past_limbs_of(std::size_t most) {
+  std::vector<std::uint32_t> todo;
+  std::vector<std::uint8_t> listed;
+  const auto list = [&](std::uint32_t band) {
+    for (const std::uint32_t ring : {2 * band, 2 * band + 1}) {
+      const std::size_t k = bands_.ring(ring).size();
+      if (listed[ring] || k < 3 || k > k_widest_collar) continue;
+      listed[ring] = 1;
+      todo.push_back(ring);
+    }
+  };
+  std::uint32_t known = 0;
+  // New bands, and those that they have reached.
+  const auto list_new = [&] {
+    listed.resize(2 * std::size_t{bands_.count()}, 0);
+    for (; known < bands_.count(); ++known) {
+      list(known);
+      for (const std::uint32_t t : bands_.triangles_of(known)) {
+        for (const std::uint32_t n : surface_.across[t]) {
+          if (n != k_none && bands_.band_of[n] != k_none) list(bands_.band_of[n]);
+        }
+      }
+    }
+  };
+  list_new();
+  for (std::size_t i = 0; i < todo.size(); ++i) {
+    listed[todo[i]] = 0;
+    if (!read_past_limbs(todo[i], most)) continue;
+    read_regular();
+    list_new();
   }
 }
 

@@ -28,8 +28,9 @@ class BandGrowth {
   // Fronts: the borders of the surface, and the rings round pointed ends (cones steeper than
   // k_point_angle, and blunter ones behind which two more rings of the same size follow).
   void start_at_borders();
-  // A sharp vertex may be a bend of a thin limb: those that rings follow first.
-  enum class Points : std::uint8_t { followed_by_rings, all };
+  // A sharp vertex may be a bend of a thin limb: those that rings follow first. One ring behind it does for a
+  // blunt vertex only where that is asked for.
+  enum class Points : std::uint8_t { followed_by_rings, all, followed_by_a_ring };
   void start_at_points(Points which);
   // Reads fans round a vertex of which half or more is bordered by one band: blunt points, and caps.
   void close_fans();
@@ -41,8 +42,13 @@ class BandGrowth {
   // most 45 degrees: those that change it least first.
   void run(bool change);
 
+  // Where limbs were cut into the strip beyond a ring: closes their holes with triangles that stand for the
+  // missing surface wherever the strip is then a band that keeps the number of vertices, and reads on.
+  // Topology alone decides: what does not fit stays as it was.
+  void read_past_limbs();
+
   // Closes the holes that are left where limbs were cut into others, the least open and small ones first,
-  // with triangles that stand for the missing surface, and reads on from there.
+  // and reads on from there. Fits or not, by shape.
   void fill_collars();
 
  private:
@@ -89,8 +95,19 @@ class BandGrowth {
   void read_fan(std::uint32_t v, const Fan& fan);
   std::vector<std::uint32_t> first_unread() const;
   bool continues_behind(const Fan& fan, int rings);
+  // A side a -> b of a ring: the triangle of its band, and what lies across.
+  struct Side {
+    std::uint32_t a, b, inside, outside;
+  };
+  std::vector<Side> sides_of(std::uint32_t ring) const;
   double open_share(std::uint32_t ring);
+  void stand_in(std::span<const Side> sides, std::span<const Triangle> triangles);
+  void take_back(std::span<const Side> sides);
   void fill(std::uint32_t ring);
+  std::vector<std::uint32_t> limbs_beyond(std::uint32_t ring) const;
+  bool close_strip(std::uint32_t ring, std::uint32_t band);
+  bool read_past_limbs(std::uint32_t ring, std::size_t most);
+  void read_past_limbs_of(std::size_t most);
 
   const Surface& surface_;
   Bands& bands_;

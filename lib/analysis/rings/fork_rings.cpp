@@ -12,23 +12,36 @@ namespace copse {
 
 namespace {
 
+bool is_complete(const Surface& surface, const Bands& bands) {
+  return bands.triangles.size() == surface.triangles.size();
+}
+
+// From every end inward, by counting alone. With `caps`, an end with one ring behind it will do.
+void grow_from_ends(const Surface& surface, bool caps, Bands& bands) {
+  BandGrowth growth(surface, bands);
+  growth.start_at_borders();
+  growth.run(false);
+  growth.start_at_points(BandGrowth::Points::followed_by_rings);
+  growth.run(false);
+  growth.start_at_points(BandGrowth::Points::all);
+  growth.run(false);
+  growth.read_past_limbs();
+  if (!caps || is_complete(surface, bands)) return;
+  growth.start_at_points(BandGrowth::Points::followed_by_a_ring);
+  growth.run(false);
+  growth.read_past_limbs();
+}
+
 Bands read_bands(const Surface& surface, bool in_order) {
   Bands bands;
   bands.band_of.assign(surface.triangles.size(), k_none);
-  {
-    BandGrowth growth(surface, bands);
-    growth.start_at_borders();
-    growth.run(false);
-    growth.start_at_points(BandGrowth::Points::followed_by_rings);
-    growth.run(false);
-    growth.start_at_points(BandGrowth::Points::all);
-    growth.run(false);
-  }
-  if (bands.triangles.size() < surface.triangles.size()) {
+  grow_from_ends(surface, false, bands);
+  if (!is_complete(surface, bands)) {
     add_quad_bands(surface, pair_quads(surface, bands.band_of, in_order), bands);
     BandGrowth growth(surface, bands);
     growth.start_at_bands(0);
     growth.run(false);
+    growth.read_past_limbs();
     growth.close_fans();
     growth.run(false);
     growth.fill_collars();
@@ -71,6 +84,12 @@ Bands without_corners(const Surface& surface, const Bands& all) {
 }  // namespace
 
 Bands read_bands(const Surface& surface) {
+  // Where counting explains every triangle there is nothing to choose. The flat end of a short twig is easily
+  // taken for something else, so it counts as an end only where all is then explained.
+  Bands counted;
+  counted.band_of.assign(surface.triangles.size(), k_none);
+  grow_from_ends(surface, true, counted);
+  if (is_complete(surface, counted)) return counted;
   Bands bands = read_bands(surface, true);
   const auto enough = k_enough_bands * static_cast<double>(surface.triangles.size());
   if (static_cast<double>(bands.triangles.size()) < enough) {
