@@ -1,13 +1,36 @@
 // Everything that reads a .tree or .stree, over any bytes: for the fuzzer and the replay of its corpus.
 #pragma once
 
+#include "lib/formats/foliage_cells.h"
+#include "lib/formats/impostors.h"
+#include "lib/formats/spectrum_file.h"
 #include "lib/formats/tree_file.h"
+#include "lib/formats/tree_volumes.h"
 #include "tests/formats/tampering.h"
 
 #include <string>
 #include <vector>
 
 namespace copse {
+
+// What a tree may carry beside itself: refused, or fit for what a player does with it.
+inline std::string read_additions(const TreeFile& file, Trust trust) {
+  if (const auto volumes = load_volumes(file); volumes && trust == Trust::nothing) {
+    if (const auto bytes = with_volumes(file.container(), *volumes); !bytes) return bytes.error().what;
+  }
+  if (const auto atlas = read_impostor(file); atlas && !atlas->empty()) {
+    if (const std::string wrong = check_impostor(*atlas); !wrong.empty()) return wrong;
+  }
+  (void)read_foliage_cells(file);
+  if (!has_spectra(file.container())) return "";
+  const auto spectra = load_spectra(file.container(), file.counts().radii, file.counts().materials);
+  if (!spectra) return "";
+  for (const Spectrum* s : {&spectra->trunk, &spectra->leaves})
+    for (const auto& triangle : s->triangles)
+      for (const std::uint32_t v : triangle)
+        if (v >= s->vertices.size()) return "a spectrum's triangle has no such vertex";
+  return "";
+}
 
 // "" when all is well: the bytes are refused, or what loads without trust is sound, can be written, and comes
 // back.
@@ -20,7 +43,9 @@ inline std::string read_as_they_are(const std::vector<std::uint8_t>& bytes) {
     if (!file) continue;
     const auto failures = file->verify();
     const auto tree = file->load();
-    if (trust != Trust::nothing || !tree) continue;
+    if (!tree) continue;
+    if (std::string wrong = read_additions(*file, trust); !wrong.empty()) return wrong;
+    if (trust != Trust::nothing) continue;
     (void)trunk_vertices(*tree);
     if (const auto wrong = check_tree(*tree); !wrong.empty()) return wrong.front();
     const auto again = encode_tree(*tree);
