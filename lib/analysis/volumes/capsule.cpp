@@ -4,6 +4,7 @@
 #include "lib/analysis/volumes/swept_search.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace copse {
 namespace {
@@ -43,23 +44,40 @@ Capsule<double> enclosing(Capsule<double> c, std::span<const Double3> points) {
 
 Capsule<double> capsule_on_line(std::span<const Double3> points, const Double3& on_line,
                                 const Double3& direction) {
-  const Double3 w = normalized(direction);
-  const auto height = [&](const Double3& p) { return dot(p - on_line, w); };
-  const auto squared_radius = [&](const Double3& p) {
-    const Double3 across = cross(p - on_line, w);
-    return dot(across, across);
+  struct Place {
+    double height, square;  // along the line; of the distance from it
   };
-  double square = 0;
-  for (const Double3& p : points) square = std::max(square, squared_radius(p));
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  const Double3 w = normalized(direction);
+  std::vector<Place> places;
+  places.reserve(points.size());
+  double square = 0, reach = 0;
   for (const Double3& p : points) {
-    const double h = height(p);
-    if (h >= low && h <= high) continue;  // it reaches neither end
-    const double half = std::sqrt(std::max(0.0, square - squared_radius(p)));
-    low = std::min(low, h + half), high = std::max(high, h - half);
+    const Double3 q = p - on_line, across = cross(q, w);
+    places.push_back({dot(q, w), dot(across, across)});
+    square = std::max(square, places.back().square), reach = std::max(reach, std::abs(places.back().height));
+  }
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Place& p : places) {
+    if (p.height >= low && p.height <= high) continue;  // it reaches neither end
+    const double half = std::sqrt(std::max(0.0, square - p.square));
+    low = std::min(low, p.height + half), high = std::max(high, p.height - half);
   }
   if (high < low) low = high = (low + high) / 2;
-  return enclosing({on_line + w * low, on_line + w * high, 0}, points);
+  const Capsule<double> line{on_line + w * low, on_line + w * high, 0};
+  // The radius is that of the inequality: of the points that may have the largest, but for rounding.
+  const auto squared = [&](const Place& p) {
+    const double beyond = p.height - std::clamp(p.height, low, high);
+    return p.square + beyond * beyond;
+  };
+  double most = 0;
+  for (const Place& p : places) most = std::max(most, squared(p));
+  const double lost = (length(on_line) + reach + std::sqrt(most)) * 0x1p-40;
+  const double least = std::max(0.0, std::sqrt(most) - lost);
+  std::vector<Double3> outermost;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (squared(places[i]) >= least * least) outermost.push_back(points[i]);
+  }
+  return enclosing(line, outermost);
 }
 
 Capsule<double> least_squares_capsule(std::span<const Double3> points) {

@@ -39,6 +39,8 @@ struct VolumeFitter::Prepared {
   std::vector<Double3> corners;  // of the hull, as the caller gave them
   double hull_seconds = 0;
   mutable std::optional<Capsule<double>> capsule;  // the least one, once it is known
+  // What the methods that are no searches for the least gave, by entry: each is asked for several times.
+  mutable std::vector<std::optional<BoundedFit<Volume<double>>>> cheap;
 };
 
 namespace {
@@ -94,8 +96,11 @@ Options limits(const FitOptions& how, double gap) {
 Fit least_box(const Prepared& p, const FitOptions& how) {
   return bounded(minimal_box(p.hull, limits<MinimalBoxOptions>(how, k_box_gap)));
 }
+Fit cheap_fit(VolumeKind kind, const char* name, const Prepared& p);
 BoundedFit<Capsule<double>> capsule_of(const Prepared& p, const FitOptions& how) {
-  return minimal_capsule(p.hull, limits<SweptBoundOptions>(how, k_capsule_gap));
+  const Fit circle = cheap_fit(VolumeKind::capsule, "projected-circle", p);
+  return minimal_capsule(p.hull, std::get<Capsule<double>>(circle.volume),
+                         limits<SweptBoundOptions>(how, k_capsule_gap));
 }
 // The lozenge starts from the capsule, which no lozenge need be worse than.
 Fit least_lozenge(const Prepared& p, const FitOptions& how) {
@@ -169,12 +174,31 @@ Fit slabs_of(const Prepared& p, int k) {
   return {volume, std::max(0.0, m.volume * (1 - 1e-9) - lost)};
 }
 
+bool is_cheap(const FitMethod& method) {
+  return method.quick || !method.least;
+}
+
+Fit fit_entry(std::size_t index, const Prepared& p, const FitOptions& how) {
+  const Entry& entry = entries()[index];
+  if (!is_cheap(entry.method)) return entry.fit(p, how);
+  p.cheap.resize(entries().size());
+  if (!p.cheap[index]) p.cheap[index] = entry.fit(p, how);
+  return *p.cheap[index];
+}
+
+std::size_t index_of(VolumeKind kind, std::string_view name) {
+  std::size_t index = 0;
+  while (!(entries()[index].method.kind == kind && entries()[index].method.name == name)) ++index;
+  return index;
+}
+
+Fit cheap_fit(VolumeKind kind, const char* name, const Prepared& p) {
+  return fit_entry(index_of(kind, name), p, {});
+}
+
 Fit fit_by(const FitMethod& method, const Prepared& p, const FitOptions& how) {
   if (method.kind == VolumeKind::kdop) return slabs_of(p, planes_of(method.name).value_or(26));
-  const auto entry = std::find_if(entries().begin(), entries().end(), [&](const Entry& e) {
-    return e.method.kind == method.kind && e.method.name == method.name;
-  });
-  return entry->fit(p, how);
+  return fit_entry(index_of(method.kind, method.name), p, how);
 }
 
 // A ball or a capsule as the type that is to hold it; none where it is not one of that.
@@ -206,7 +230,8 @@ std::optional<Volume<double>> as_kind(const Volume<double>& v, VolumeKind own, V
 std::vector<Volume<double>> cheaper_fits(const FitMethod& method, const Prepared& p, const FitOptions& how) {
   std::vector<Volume<double>> out;
   if (!method.least || method.kind == VolumeKind::kdop) return out;
-  for (const Entry& e : entries()) {
+  for (std::size_t i = 0; i < entries().size(); ++i) {
+    const Entry& e = entries()[i];
     if (e.method == method) break;
     const bool known = e.method.kind == VolumeKind::capsule && e.method.least && p.capsule.has_value();
     const bool ball = e.method.kind == VolumeKind::sphere && e.method.least;
@@ -214,7 +239,7 @@ std::vector<Volume<double>> cheaper_fits(const FitMethod& method, const Prepared
     const bool wider = (method.kind == VolumeKind::capsule && ball) ||
                        (method.kind == VolumeKind::lozenge && (ball || capsule));
     if (e.method.kind != method.kind && !wider) continue;
-    const Volume<double> v = known ? Volume<double>(*p.capsule) : e.fit(p, how).volume;
+    const Volume<double> v = known ? Volume<double>(*p.capsule) : fit_entry(i, p, how).volume;
     if (auto as = as_kind(v, e.method.kind, method.kind)) out.push_back(std::move(*as));
   }
   return out;

@@ -51,6 +51,37 @@ void move_corner(const Double3& q, SweptRectangle& s) {
   (e.y < 0 ? s.b0 : s.b1) = q.y - e.y * t;
 }
 
+// The thinnest slab across the third axis, and sides as short as its points allow; `local`: the points in the
+// frame.
+SweptRectangle rectangle_of_sides(std::span<const Double3> points, const Axes& frame,
+                                  std::vector<Double3>& local) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    local[i] = into(frame, points[i]);
+    low = std::min(low, local[i].z), high = std::max(high, local[i].z);
+  }
+  SweptRectangle s;
+  s.h = (low + high) / 2, s.r = (high - low) / 2;
+  Side a, b;
+  for (const Double3& q : local) {
+    if (a.holds(q.x) && b.holds(q.y)) continue;
+    const double half = std::sqrt(std::max(0.0, s.r * s.r - (q.z - s.h) * (q.z - s.h)));
+    a.add(q.x, half), b.add(q.y, half);
+  }
+  a.close(), b.close();
+  s.a0 = a.low, s.a1 = a.high, s.b0 = b.low, s.b1 = b.high;
+  return s;
+}
+
+double farthest_square(std::span<const Double3> local, const SweptRectangle& s) {
+  double square = 0;
+  for (const Double3& q : local) {
+    const Double3 e = offset_from(s, q);
+    square = std::max(square, dot(e, e));
+  }
+  return square;
+}
+
 }  // namespace
 
 double interior_volume(const Lozenge<double>& l) {
@@ -74,31 +105,30 @@ Lozenge<double> placed(const SweptRectangle& s, const Axes& frame) {
 }
 
 Lozenge<double> lozenge_in_frame(std::span<const Double3> points, const Axes& frame) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Double3& p : points) {
-    const double w = dot(frame[2], p);
-    low = std::min(low, w), high = std::max(high, w);
-  }
-  SweptRectangle s;
-  s.h = (low + high) / 2, s.r = (high - low) / 2;
-  Side a, b;
-  for (const Double3& p : points) {
-    const Double3 q = into(frame, p);
-    if (a.holds(q.x) && b.holds(q.y)) continue;
-    const double half = std::sqrt(std::max(0.0, s.r * s.r - (q.z - s.h) * (q.z - s.h)));
-    a.add(q.x, half), b.add(q.y, half);
-  }
-  a.close(), b.close();
-  s.a0 = a.low, s.a1 = a.high, s.b0 = b.low, s.b1 = b.high;
+  std::vector<Double3> local(points.size());
+  SweptRectangle s = rectangle_of_sides(points, frame, local);
   // What a corner leaves out moves it, in an order that is not that of the points: no other becomes one of
   // them.
   std::vector<Double3> beyond;
-  for (const Double3& p : points) {
-    const Double3 q = into(frame, p), e = offset_from(s, q);
-    if (e.x != 0 && e.y != 0 && dot(e, e) > s.r * s.r) beyond.push_back(q);
+  double square = 0;
+  for (const Double3& q : local) {
+    const Double3 e = offset_from(s, q);
+    const double d = dot(e, e);
+    square = std::max(square, d);
+    if (e.x != 0 && e.y != 0 && d > s.r * s.r) beyond.push_back(q);
   }
   for (const Double3& q : distinct_points(beyond)) move_corner(q, s);
-  return enclosing(placed(s, frame), points);
+  if (!beyond.empty()) square = farthest_square(local, s);
+  // The radius is that of the inequality: of the points that may have the largest, but for rounding.
+  const double reach =
+      std::max({std::abs(s.a0), std::abs(s.a1), std::abs(s.b0), std::abs(s.b1), std::abs(s.h)});
+  const double least = std::max(0.0, std::sqrt(square) - (reach + std::sqrt(square)) * 0x1p-40);
+  std::vector<Double3> outermost;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Double3 e = offset_from(s, local[i]);
+    if (dot(e, e) >= least * least) outermost.push_back(points[i]);
+  }
+  return enclosing(placed(s, frame), outermost);
 }
 
 Lozenge<double> gaussian_lozenge(std::span<const Double3> points) {

@@ -15,6 +15,11 @@ Capsule<double> capsule_of(const SweptFit& fit) {
 }  // namespace
 
 BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const SweptBoundOptions& options) {
+  return minimal_capsule(hull, projected_circle_capsule(hull.vertices), options);
+}
+
+BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const Capsule<double>& projected_circle,
+                                            const SweptBoundOptions& options) {
   const std::span<const Double3> points = hull.vertices;
   if (hull.dimension < 2) {
     const Capsule<double> segment{points.front(), points.back(), 0};
@@ -27,7 +32,7 @@ BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const SweptB
   };
   const Double3 centre = minimal_sphere(points).centre;
   take({centre, centre, 0});
-  take(projected_circle_capsule(points));
+  take(projected_circle);
   SweptFit fit = search_around(Swept::capsule, points);
   if (options.gap < std::numeric_limits<double>::infinity()) {
     SweptBoundOptions how = options;

@@ -19,4 +19,8 @@ namespace copse {
 // 20 more for a gap of 0.02.
 BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const SweptBoundOptions& options = {});
 
+// The same, with projected_circle_capsule(hull.vertices) already known.
+BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const Capsule<double>& projected_circle,
+                                            const SweptBoundOptions& options = {});
+
 }  // namespace copse

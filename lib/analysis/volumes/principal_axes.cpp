@@ -25,23 +25,74 @@ class OrderFreeSum {
   double high_ = 0, low_ = 0;
 };
 
-// Open addressing: the places of points whose like has not been met.
-std::vector<Double3> each_once(std::span<const Double3> points) {
-  const std::size_t size = std::bit_ceil(2 * points.size() + 2), mask = size - 1;
-  std::vector<std::uint32_t> table(size, 0);  // 1 + place in `once`
-  std::vector<Double3> once;
-  once.reserve(points.size());
-  for (const Double3& p : points) {
-    std::uint64_t h = std::bit_cast<std::uint64_t>(p.x) * 0x9e3779b97f4a7c15u;
-    h = (h ^ (h >> 29) ^ std::bit_cast<std::uint64_t>(p.y)) * 0xbf58476d1ce4e5b9u;
-    h = (h ^ (h >> 31) ^ std::bit_cast<std::uint64_t>(p.z)) * 0x94d049bb133111ebu;
-    std::size_t slot = (h ^ (h >> 32)) & mask;
-    while (table[slot] != 0 && once[table[slot] - 1] != p) slot = (slot + 1) & mask;
-    if (table[slot] != 0) continue;
-    once.push_back(p);
-    table[slot] = static_cast<std::uint32_t>(once.size());
+// Moments of points up to the second, order-free at two operations a term: adding k_shift leaves a term, at
+// most 4, as a multiple of 2^-49 in the last bits of the double, and integers are added without rounding.
+class OrderFreeMoments {
+ public:
+  void add(const Double3& p) {
+    x_[filled_] = p.x, y_[filled_] = p.y, z_[filled_] = p.z;
+    if (++filled_ == k_block) flush();
   }
-  return once;
+  std::array<double, 9> values() {  // x, y, z, xx, xy, xz, yy, yz, zz
+    flush();
+    std::array<double, 9> out;
+    for (int k = 0; k < 9; ++k) {
+      const auto high = static_cast<double>(high_[k] + (low_[k] >> 32));
+      out[k] = high * 0x1p-17 + static_cast<double>(low_[k] & 0xffffffff) * 0x1p-49;
+    }
+    return out;
+  }
+
+ private:
+  static constexpr double k_shift = 0x1.8p3;
+  static constexpr std::size_t k_block = 512;  // whose sums, up to 2^60, an integer holds
+
+  static std::uint64_t bits(double term) { return std::bit_cast<std::uint64_t>(term + k_shift); }
+
+  void flush() {
+    std::array<std::uint64_t, 9> sum{};
+    for (std::size_t i = 0; i < filled_; ++i) {
+      const double x = x_[i], y = y_[i], z = z_[i];
+      sum[0] += bits(x), sum[1] += bits(y), sum[2] += bits(z);
+      sum[3] += bits(x * x), sum[4] += bits(x * y), sum[5] += bits(x * z);
+      sum[6] += bits(y * y), sum[7] += bits(y * z), sum[8] += bits(z * z);
+    }
+    for (int k = 0; k < 9; ++k) {
+      const auto s = static_cast<std::int64_t>(sum[k] - filled_ * bits(0));
+      high_[k] += s >> 32, low_[k] += s & 0xffffffff;
+    }
+    filled_ = 0;
+  }
+
+  std::array<double, k_block> x_, y_, z_;
+  std::size_t filled_ = 0;
+  std::array<std::int64_t, 9> high_{}, low_{};  // high 2^32 + low
+};
+
+std::uint64_t hash_of(const Double3& p) {
+  std::uint64_t h = std::bit_cast<std::uint64_t>(p.x) * 0x9e3779b97f4a7c15u +
+                    std::bit_cast<std::uint64_t>(p.y) * 0xbf58476d1ce4e5b9u +
+                    std::bit_cast<std::uint64_t>(p.z) * 0x94d049bb133111ebu;
+  return (h ^ (h >> 32)) * 0xd6e8feb86659fd93u;
+}
+
+// Takes every point whose like has not been met (open addressing) and tells how many those are.
+template <class Take>
+std::size_t each_once(std::span<const Double3> points, Take&& take) {
+  const std::size_t size = std::bit_ceil(3 * points.size() + 2), mask = size - 1;
+  const int shift = 64 - std::countr_zero(size);
+  std::vector<std::uint32_t> table(size, 0);  // 1 + index of the point
+  std::size_t distinct = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Double3& p = points[i];
+    std::size_t slot = hash_of(p) >> shift;
+    while (table[slot] != 0 && points[table[slot] - 1] != p) slot = (slot + 1) & mask;
+    if (table[slot] != 0) continue;
+    table[slot] = static_cast<std::uint32_t>(i + 1);
+    ++distinct;
+    take(p);
+  }
+  return distinct;
 }
 
 void rotate(std::array<std::array<double, 3>, 3>& a, Axes& v, int p, int q) {
@@ -91,21 +142,13 @@ Eigen3 eigen_of(const std::array<double, 6>& m) {
 }
 
 PrincipalAxes principal_axes(std::span<const Double3> points) {
-  const std::vector<Double3> once = each_once(points);
-  if (once.empty()) return {};
-  const double n = static_cast<double>(once.size());
-  std::array<OrderFreeSum, 3> sum;
-  for (const Double3& p : once) sum[0].add(p.x), sum[1].add(p.y), sum[2].add(p.z);
-  const Double3 mean{sum[0].value() / n, sum[1].value() / n, sum[2].value() / n};
-  std::array<OrderFreeSum, 6> products;
-  for (const Double3& p : once) {
-    const Double3 d = p - mean;
-    products[0].add(d.x * d.x), products[1].add(d.x * d.y), products[2].add(d.x * d.z);
-    products[3].add(d.y * d.y), products[4].add(d.y * d.z), products[5].add(d.z * d.z);
-  }
-  std::array<double, 6> covariance;
-  for (int i = 0; i < 6; ++i) covariance[i] = products[i].value() / n;
-  return from_covariance(mean, covariance);
+  OrderFreeMoments moments;
+  const std::size_t distinct = each_once(points, [&](const Double3& p) { moments.add(p); });
+  if (distinct == 0) return {};
+  std::array<double, 9> m = moments.values();
+  for (double& v : m) v /= static_cast<double>(distinct);
+  return from_covariance({m[0], m[1], m[2]}, {m[3] - m[0] * m[0], m[4] - m[0] * m[1], m[5] - m[0] * m[2],
+                                              m[6] - m[1] * m[1], m[7] - m[1] * m[2], m[8] - m[2] * m[2]});
 }
 
 PrincipalAxes principal_axes(std::span<const Double3> points,

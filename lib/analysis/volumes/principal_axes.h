@@ -19,9 +19,9 @@ struct PrincipalAxes {
   std::array<double, 3> variances{};  // >= 0
 };
 
-// Of each distinct point once. Coordinates within 4 (a PointCloud's). The order of the points does not change
-// one bit: terms are added as multiples of a fixed unit, so that no sum rounds (up to 2^26 points). Variances
-// below 2^-52 are rounding. No points: the origin and the world's axes. O(n).
+// Of each distinct point once. Coordinates within 2 (a PointCloud's). The order of the points does not change
+// one bit: terms are added as multiples of a fixed unit, so that no sum rounds (up to 2^31 points). Variances
+// below 2^-49 are rounding. No points: the origin and the world's axes. O(n), one pass.
 PrincipalAxes principal_axes(std::span<const Double3> points);
 
 // Of the triangles' area, each triangle's own spread included. Without area: of the points. The order of the

@@ -58,43 +58,47 @@ struct Derivatives {
   void add(int i, int j, double v) { hessian[std::min(i, j)][std::max(i, j)] += v; }
 };
 
-// One coordinate of a point's offset from the rectangle, as far as it depends on the unknowns: value, its two
-// derivatives by the turn, and the place that it is measured from (derivative -1).
-struct Row {
-  double e;
-  int i, j, place;
-  double di, dj;
-};
-
-// Adds -log(r^2 - |e|^2) of one point; `p` is the arm that turns. Returns 2 / (r^2 - |e|^2).
+// Adds -log(r^2 - |e|^2) of one point; `p` is the arm that turns. Returns w = 2 / (r^2 - |e|^2).
+//
+// With J the derivatives of e (a coordinate that is 0 has none: the point is beside the rectangle there) the
+// gradient is g = w J^T e, for r -w r, and the second derivatives are g g^T + w J^T J, for r less w.
 double add_point(const Double3& p, const Double3& e, const SweptRectangle& s, Derivatives& d) {
-  const double slack = s.r * s.r - dot(e, e), weight = 2 / slack;
-  std::array<Row, 3> rows;
-  int n = 0;
-  if (e.x != 0) rows[n++] = {e.x, turn_y, turn_z, e.x < 0 ? at_a0 : at_a1, p.z, -p.y};
-  if (e.y != 0) rows[n++] = {e.y, turn_x, turn_z, e.y < 0 ? at_b0 : at_b1, -p.z, p.x};
-  rows[n++] = {e.z, turn_x, turn_y, at_h, p.y, -p.x};
-  std::array<double, k_unknowns> g{};
-  for (int k = 0; k < n; ++k) {
-    const Row& row = rows[k];
-    const double w = weight * row.e;
-    g[row.i] += w * row.di;
-    g[row.j] += w * row.dj;
-    g[row.place] -= w;
-    d.hessian[row.i][row.i] += weight * row.di * row.di;
-    d.hessian[row.i][row.j] += weight * row.di * row.dj;
-    d.hessian[row.j][row.j] += weight * row.dj * row.dj;
-    d.hessian[row.i][row.place] -= weight * row.di;
-    d.hessian[row.j][row.place] -= weight * row.dj;
-    d.hessian[row.place][row.place] += weight;
-  }
-  g[at_r] = -weight * s.r;
-  d.hessian[at_r][at_r] -= weight;
-  for (int i = 0; i < k_unknowns; ++i) {
-    d.gradient[i] += g[i];
-    for (int j = i; j < k_unknowns; ++j) d.hessian[i][j] += g[i] * g[j];
-  }
-  return weight;
+  const double slack = s.r * s.r - dot(e, e), w = 2 / slack;
+  const double a = e.x != 0 ? w : 0, b = e.y != 0 ? w : 0;
+  const int at_a = e.x < 0 ? at_a0 : at_a1, at_b = e.y < 0 ? at_b0 : at_b1;
+  const Double3 t = cross(p, e) * w;
+  const double ga = -w * e.x, gb = -w * e.y, gh = -w * e.z, gr = -w * s.r;
+  auto& g = d.gradient;
+  g[turn_x] += t.x, g[turn_y] += t.y, g[turn_z] += t.z;
+  g[at_a] += ga, g[at_b] += gb, g[at_h] += gh, g[at_r] += gr;
+  auto& x = d.hessian[turn_x];
+  x[turn_x] += t.x * t.x + b * p.z * p.z + w * p.y * p.y;
+  x[turn_y] += t.x * t.y - w * p.x * p.y;
+  x[turn_z] += t.x * t.z - b * p.x * p.z;
+  x[at_a] += t.x * ga;
+  x[at_b] += t.x * gb + b * p.z;
+  x[at_h] += t.x * gh - w * p.y;
+  x[at_r] += t.x * gr;
+  auto& y = d.hessian[turn_y];
+  y[turn_y] += t.y * t.y + a * p.z * p.z + w * p.x * p.x;
+  y[turn_z] += t.y * t.z - a * p.y * p.z;
+  y[at_a] += t.y * ga - a * p.z;
+  y[at_b] += t.y * gb;
+  y[at_h] += t.y * gh + w * p.x;
+  y[at_r] += t.y * gr;
+  auto& z = d.hessian[turn_z];
+  z[turn_z] += t.z * t.z + a * p.y * p.y + b * p.x * p.x;
+  z[at_a] += t.z * ga + a * p.y;
+  z[at_b] += t.z * gb - b * p.x;
+  z[at_h] += t.z * gh;
+  z[at_r] += t.z * gr;
+  auto& ha = d.hessian[at_a];
+  ha[at_a] += ga * ga + a, ha[at_b] += ga * gb, ha[at_h] += ga * gh, ha[at_r] += ga * gr;
+  auto& hb = d.hessian[at_b];
+  hb[at_b] += gb * gb + b, hb[at_h] += gb * gh, hb[at_r] += gb * gr;
+  d.hessian[at_h][at_h] += gh * gh + w, d.hessian[at_h][at_r] += gh * gr;
+  d.hessian[at_r][at_r] += gr * gr - w;
+  return w;
 }
 
 // What the second-order part of a rotation, w x (w x p) / 2, adds for a force f on p.
@@ -135,7 +139,7 @@ VolumeSlopes slopes_of_log_volume(const SweptLengths& l) {
 // Solves H x = -g by Cholesky's method with a unit diagonal; false when H is not positive.
 bool solve(const Matrix& h, const Vector& g, int n, double singular, Vector& x) {
   Matrix l;
-  Vector scale;
+  Vector scale, inverse;  // of the diagonal
   for (int i = 0; i < n; ++i) {
     if (!(h[i][i] > 0) || !std::isfinite(h[i][i])) return false;
     scale[i] = 1 / std::sqrt(h[i][i]);
@@ -146,21 +150,21 @@ bool solve(const Matrix& h, const Vector& g, int n, double singular, Vector& x) 
       for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
       if (i == j) {
         if (!(sum > singular)) return false;
-        l[j][j] = std::sqrt(sum);
+        inverse[j] = 1 / std::sqrt(sum);
       } else {
-        l[i][j] = sum / l[j][j];
+        l[i][j] = sum * inverse[j];
       }
     }
   }
   for (int i = 0; i < n; ++i) {
     double sum = -g[i] * scale[i];
     for (int k = 0; k < i; ++k) sum -= l[i][k] * x[k];
-    x[i] = sum / l[i][i];
+    x[i] = sum * inverse[i];
   }
   for (int i = n - 1; i >= 0; --i) {
     double sum = x[i];
     for (int k = i + 1; k < n; ++k) sum -= l[k][i] * x[k];
-    x[i] = sum / l[i][i];
+    x[i] = sum * inverse[i];
   }
   for (int i = 0; i < n; ++i) x[i] *= scale[i];
   return true;
@@ -233,18 +237,30 @@ class Barrier {
 
  private:
   bool step(double weight, double& decrement);
+  struct {
+    double weight = 0, value = 0;
+  } known_;  // at `values`
 };
 
 void Barrier::reduce(const Derivatives& d, Vector& gradient, Matrix& hessian) const {
+  struct Term {
+    int unknown, free;
+    double factor;
+  };
+  std::array<Term, 2 * k_unknowns> terms;
+  int n = 0;
   for (int i = 0; i < k_unknowns; ++i) {
-    const Tie& a = tied.of[i];
-    for (int m = 0; m < a.terms; ++m) {
-      gradient[a.free[m]] += a.factor[m] * d.gradient[i];
-      for (int j = 0; j < k_unknowns; ++j) {
-        const double h = d.hessian[std::min(i, j)][std::max(i, j)];
-        const Tie& b = tied.of[j];
-        for (int n = 0; n < b.terms; ++n) hessian[a.free[m]][b.free[n]] += a.factor[m] * b.factor[n] * h;
-      }
+    const Tie& tie = tied.of[i];
+    for (int m = 0; m < tie.terms; ++m) terms[n++] = {i, tie.free[m], tie.factor[m]};
+  }
+  for (int i = 0; i < n; ++i) {
+    const Term& a = terms[i];
+    gradient[a.free] += a.factor * d.gradient[a.unknown];
+    hessian[a.free][a.free] += a.factor * a.factor * d.hessian[a.unknown][a.unknown];
+    for (int j = i + 1; j < n; ++j) {  // unknowns ascend
+      const Term& b = terms[j];
+      const double h = a.factor * b.factor * d.hessian[a.unknown][b.unknown];
+      hessian[a.free][b.free] += h, hessian[b.free][a.free] += h;
     }
   }
 }
@@ -269,14 +285,16 @@ bool Barrier::step(double weight, double& decrement) {
   }
   if (!found) return false;
   decrement = -slope / 2;
-  const double before = value(values, weight);
+  const double before = known_.weight == weight ? known_.value : value(values, weight);
   if (!std::isfinite(before)) return false;  // a point has come to lie on the surface, but for rounding
   double length = 1;
   for (int halvings = 0; halvings < 40; ++halvings, length /= 2) {
     Vector next = values;
     for (int i = 0; i < n; ++i) next[i] += length * direction[i];
-    if (value(next, weight) <= before + k_least_slope * length * slope) {
+    const double after = value(next, weight);
+    if (after <= before + k_least_slope * length * slope) {
       accept(next);
+      known_ = {weight, after};
       return true;
     }
   }

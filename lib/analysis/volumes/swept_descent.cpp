@@ -7,7 +7,7 @@ namespace {
 
 constexpr double k_room = 1.05;        // a start is this much larger than it must be
 constexpr std::size_t k_added = 6;     // points a round
-constexpr double k_first_gap = 1e-2;   // no exact optimum over points that are not yet the right ones
+constexpr double k_first_gap = 1e-3;   // no exact optimum over points that are not yet the right ones
 constexpr double k_sticks_out = 1e-9;  // of the radius: less is left to the final growth
 
 // The points that stick out most, none near another in the list of offsets: the worst of each octant of the
@@ -98,27 +98,59 @@ double reach_of(std::span<const Double3> points, const SweptFit& fit) {
   return std::sqrt(square);
 }
 
+double cost_of(Swept kind, const SweptFit& fit) {
+  return kind == Swept::line ? fit.rectangle.r : fit.volume();
+}
+
+SweptDescent::SweptDescent(Swept kind, std::span<const Double3> points, const Axes& start)
+    : kind_(kind), points_(points), fit_{orthonormal(start), {}} {
+  working_ = extreme_points(points, fit_.frame);
+  fit_.rectangle = roomy_rectangle(kind, points, fit_.frame);
+}
+
+bool SweptDescent::is_done(const DescentOptions& options) const {
+  return reach_ > 0 && reach_ <= fit_.rectangle.r * (1 + k_sticks_out) && gaps_.last <= options.gap;
+}
+
+// Room for a next round, with the points that have stuck out.
+void SweptDescent::add_points(const DescentOptions& options) {
+  const double r = fit_.rectangle.r, excess = std::max(0.0, reach_ / r - 1);
+  if (excess > k_sticks_out) add_worst(points_, fit_, working_, r);
+  // Once nothing sticks out by much it pays to be exact.
+  gaps_.first = std::min(0.3, std::max(excess, 10 * gaps_.last));
+  gaps_.last = std::max(options.gap, std::min(gaps_.last, excess * 0.01));
+  fit_.rectangle.r = reach_ + std::max(0.5 * (reach_ - r), 0.3 * gaps_.first * r);
+}
+
+void SweptDescent::run(const DescentOptions& options) {
+  for (int round = 0; round < options.rounds && !is_done(options); ++round) {
+    if (reach_ > 0) {
+      add_points(options);
+    } else {
+      gaps_ = {options.first_gap, std::max(options.gap, k_first_gap)};
+    }
+    descend(kind_, chosen(points_, working_), fit_, gaps_);
+    reach_ = reach_of(points_, fit_);
+    if (least_cost() > options.hopeless) return;
+  }
+}
+
+SweptFit SweptDescent::fit() const {
+  SweptFit whole = fit_;
+  whole.rectangle.r = reach_;
+  return whole;
+}
+
+double SweptDescent::least_cost() const {
+  constexpr double k_gaps = 2;  // what is beyond the theory of convex problems
+  return cost_of(kind_, fit_) * (1 - k_gaps * gaps_.last);
+}
+
 SweptFit descend_around(Swept kind, std::span<const Double3> points, const Axes& start,
                         const DescentOptions& options) {
-  SweptFit fit{orthonormal(start), {}};
-  std::vector<std::uint32_t> working = extreme_points(points, fit.frame);
-  fit.rectangle = roomy_rectangle(kind, points, fit.frame);
-  BarrierGaps gaps{1, std::max(options.gap, k_first_gap)};
-  for (int round = 1;; ++round) {
-    descend(kind, chosen(points, working), fit, gaps);
-    const double reach = reach_of(points, fit), r = fit.rectangle.r;
-    const bool all = reach <= r * (1 + k_sticks_out);
-    if ((all && gaps.last <= options.gap) || round >= options.rounds) {
-      fit.rectangle.r = reach;
-      return fit;
-    }
-    const double excess = std::max(0.0, reach / r - 1);
-    if (!all) add_worst(points, fit, working, r);
-    // Once nothing sticks out by much it pays to be exact.
-    gaps.first = std::clamp(excess, 10 * gaps.last, 0.3);
-    gaps.last = std::max(options.gap, std::min(gaps.last, excess * 0.01));
-    fit.rectangle.r = reach + std::max(0.5 * (reach - r), 0.3 * gaps.first * r);
-  }
+  SweptDescent descent(kind, points, start);
+  descent.run(options);
+  return descent.fit();
 }
 
 }  // namespace copse

@@ -4,16 +4,18 @@
 #include "lib/analysis/volumes/principal_axes.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace copse {
 namespace {
 
-constexpr double k_rough_gap = 0.05;
+constexpr double k_rough_gap = 0.005, k_narrow = 0.03;
 constexpr int k_rough_rounds = 2;
-constexpr std::size_t k_finalists = 6;           // of 13
-constexpr std::size_t k_lozenge_finalists = 14;  // of 27: the rough order is no more than a hint
-
-constexpr std::size_t k_small_hull = 60;  // of fewer points all go on: they are quick, and misled easily
+// Starts that are descended from. A small hull has few, deep valleys, and is quick.
+constexpr std::size_t k_small_hull = 60;
+constexpr std::size_t k_kept_small = 20, k_kept = 12, k_lozenge_kept_small = 32, k_lozenge_kept = 16;
+constexpr double k_alike = 0.985;              // of frames a sixth of a radian apart
+constexpr std::size_t k_most_looked_at = 128;  // points, for the choice of the starts
 
 Axes about(const Axes& base, const Double3& direction) {
   const Double3 u = normalized(direction);
@@ -52,54 +54,157 @@ std::vector<Axes> frames(const Axes& base) {
   return out;
 }
 
-// The edges of the hull among all pairs of so few points; for a lozenge a finer grid of turns.
-void add_starts(Swept kind, std::span<const Double3> points, const Axes& base, std::vector<Axes>& starts) {
-  constexpr std::size_t k_few = 12;
-  constexpr double k_turn = 0.2761;  // two thirds of tan(pi / 8): the middles of 27 cells
-  if (points.size() > k_few) return;
-  if (kind == Swept::lozenge) {
-    for (int i = 0; i < 81; ++i) {
-      const int k = i / 27;
-      const Axes across{base[(k + 1) % 3], base[(k + 2) % 3], base[k]};
-      starts.push_back(
-          turned(across, {(i % 3 - 1) * k_turn, (i / 3 % 3 - 1) * k_turn, (i / 9 % 3 - 1) * k_turn}));
+// --- many frames are looked at, few descended from
+// ----------------------------------------------------------
+
+// About the radius of the smallest circle round the points across the first axis, and its centre (Badoiu and
+// Clarkson's steps: towards the farthest, ever shorter).
+double circle_across(std::span<const Double3> local, Double3& centre) {
+  constexpr int k_steps = 12;
+  double radius = std::numeric_limits<double>::infinity();
+  Double3 c = centre;
+  for (int step = 0; step < k_steps; ++step) {
+    Double3 far;
+    double most = -1;
+    for (const Double3& q : local) {
+      const Double3 d{0, q.y - c.y, q.z - c.z};
+      if (dot(d, d) > most) most = dot(d, d), far = d;
     }
-    return;
+    if (most < radius * radius) radius = std::sqrt(most), centre = c;
+    c += far / (step + 3);
   }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = i + 1; j < points.size(); ++j) {
-      if (points[i] != points[j]) starts.push_back(about(k_world_axes, points[j] - points[i]));
-    }
-  }
+  return radius;
 }
 
-double cost(Swept kind, const SweptFit& fit) {
-  return kind == Swept::line ? fit.rectangle.r : fit.volume();
+// How small it is in this frame, unturned and without care.
+double cost_in_frame(Swept kind, std::span<const Double3> points, const Axes& frame,
+                     std::vector<Double3>& local) {
+  const bool flat = kind == Swept::lozenge;
+  DoubleBox box;
+  for (std::size_t i = 0; i < points.size(); ++i) box.grow(local[i] = into(frame, points[i]));
+  Double3 centre = box.centre();
+  const double r = flat ? box.extent().z / 2 : circle_across(local, centre);
+  if (kind == Swept::line) return r;
+  double a0 = box.max.x + r, a1 = box.min.x - r, b0 = box.max.y + r, b1 = box.min.y - r;
+  for (const Double3& q : local) {
+    const double y = flat ? 0 : q.y - centre.y, z = q.z - centre.z;
+    const double half = std::sqrt(std::max(0.0, r * r - y * y - z * z));
+    a0 = std::min(a0, q.x + half), a1 = std::max(a1, q.x - half);
+    b0 = std::min(b0, q.y + half), b1 = std::max(b1, q.y - half);
+  }
+  return swept_volume({std::max(0.0, a1 - a0), flat ? std::max(0.0, b1 - b0) : 0, r});
+}
+
+// How far one is turned from the other, of what tells them apart: the axis of a line or capsule, the axis
+// across of a lozenge and the cross of its two others.
+double likeness(Swept kind, const Axes& f, const Axes& g) {
+  if (kind != Swept::lozenge) return std::abs(dot(f[0], g[0]));
+  const double along = std::max(std::abs(dot(f[0], g[0])), std::abs(dot(f[0], g[1])));
+  return std::min(std::abs(dot(f[2], g[2])), along);
+}
+
+// A Fibonacci lattice on half a sphere.
+std::vector<Axes> even_directions(const Axes& base, int count) {
+  std::vector<Axes> out;
+  for (int i = 0; i < count; ++i) {
+    const double z = (i + 0.5) / count, r = std::sqrt(1 - z * z), a = i * 2.399963229728653;
+    out.push_back(about(base, {r * std::cos(a), r * std::sin(a), z}));
+  }
+  return out;
+}
+
+// Directions between all points of so few, and an even spread of directions; for a lozenge a grid of turns.
+std::vector<Axes> many_frames(Swept kind, std::span<const Double3> points, const Axes& base) {
+  constexpr std::size_t k_few = 16;
+  constexpr int k_directions = 96, k_turns = 5;
+  constexpr double k_half = 0.41421357;  // tan(pi / 8): the cube's half side
+  std::vector<Axes> out = kind == Swept::lozenge ? frames(base) : directions(base);
+  if (kind == Swept::lozenge) {
+    const auto turn = [](int i) { return (2 * i - k_turns + 1) * (k_half / k_turns); };
+    for (int i = 0; i < 3 * k_turns * k_turns * k_turns; ++i) {
+      const int k = i % 3, x = i / 3 % k_turns, y = i / 3 / k_turns % k_turns, z = i / 3 / k_turns / k_turns;
+      const Double3 g{turn(x), turn(y), turn(z)};
+      if (std::abs(g.x) + std::abs(g.y) + std::abs(g.z) > 1) continue;
+      out.push_back(turned({base[(k + 1) % 3], base[(k + 2) % 3], base[k]}, g));
+    }
+    return out;
+  }
+  for (const Axes& f : even_directions(base, k_directions)) out.push_back(f);
+  for (std::size_t i = 0; points.size() <= k_few && i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      if (points[i] != points[j]) out.push_back(about(k_world_axes, points[j] - points[i]));
+    }
+  }
+  return out;
+}
+
+// All points where they are few, else what is extreme along an even spread of directions.
+std::vector<Double3> looked_at(std::span<const Double3> points, const Axes& base) {
+  if (points.size() <= k_most_looked_at) return {points.begin(), points.end()};
+  std::vector<std::uint32_t> chosen;
+  for (const Axes& f : even_directions(base, k_most_looked_at / 2)) {
+    std::uint32_t low = 0, high = 0;
+    for (std::uint32_t i = 1; i < points.size(); ++i) {
+      const double along = dot(f[0], points[i]);
+      if (along < dot(f[0], points[low])) low = i;
+      if (along > dot(f[0], points[high])) high = i;
+    }
+    chosen.push_back(low), chosen.push_back(high);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  std::vector<Double3> out;
+  for (const std::uint32_t i : chosen) out.push_back(points[i]);
+  return out;
+}
+
+// The most promising of many frames, none near another.
+std::vector<Axes> promising_frames(Swept kind, std::span<const Double3> points, const Axes& base) {
+  const bool small = points.size() < k_small_hull;
+  const std::size_t wanted = kind == Swept::lozenge ? (small ? k_lozenge_kept_small : k_lozenge_kept)
+                                                    : (small ? k_kept_small : k_kept);
+  struct Frame {
+    double cost;
+    Axes axes;
+  };
+  std::vector<Frame> all;
+  const std::vector<Double3> some = looked_at(points, base);
+  std::vector<Double3> local(some.size());
+  for (const Axes& f : many_frames(kind, points, base))
+    all.push_back({cost_in_frame(kind, some, f, local), f});
+  std::stable_sort(all.begin(), all.end(), [](const Frame& a, const Frame& b) { return a.cost < b.cost; });
+  std::vector<Axes> kept;
+  for (const Frame& f : all) {
+    if (kept.size() == wanted) break;
+    const bool near = std::any_of(kept.begin(), kept.end(),
+                                  [&](const Axes& k) { return likeness(kind, k, f.axes) > k_alike; });
+    if (!near) kept.push_back(f.axes);
+  }
+  return kept;
 }
 
 }  // namespace
 
 SweptFit search_around(Swept kind, std::span<const Double3> points) {
   const Axes base = principal_axes(points).axes;
-  std::vector<std::pair<double, Axes>> scouts;
-  std::vector<Axes> starts = kind == Swept::lozenge ? frames(base) : directions(base);
-  add_starts(kind, points, base, starts);
-  for (const Axes& start : starts) {
-    const SweptFit fit = descend_around(kind, points, start, {k_rough_gap, k_rough_rounds});
-    scouts.emplace_back(cost(kind, fit), fit.frame);
+  std::vector<SweptDescent> scouts;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Axes& start : promising_frames(kind, points, base)) {
+    scouts.emplace_back(kind, points, start);
+    scouts.back().run({k_rough_gap, k_rough_rounds, k_narrow, least});
+    least = std::min(least, scouts.back().cost());
   }
   std::stable_sort(scouts.begin(), scouts.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  const std::size_t finalists = points.size() < k_small_hull ? scouts.size()
-                                : kind == Swept::lozenge     ? k_lozenge_finalists
-                                                             : k_finalists;
-  SweptFit best;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < scouts.size() && i < finalists; ++i) {
-    const SweptFit fit = descend_around(kind, points, scouts[i].second);
-    if (cost(kind, fit) < least) least = cost(kind, fit), best = fit;
+                   [](const SweptDescent& a, const SweptDescent& b) { return a.cost() < b.cost(); });
+  SweptFit best = scouts.front().fit();
+  for (SweptDescent& scout : scouts) {
+    if (scout.least_cost() > least) continue;
+    scout.run({.hopeless = least});
+    if (scout.cost() < least) least = scout.cost(), best = scout.fit();
   }
-  return best;
+  // A narrow descent may have ended early.
+  const SweptFit again = descend_around(kind, points, best.frame);
+  return cost_of(kind, again) < least ? again : best;
 }
 
 }  // namespace copse
