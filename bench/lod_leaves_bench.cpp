@@ -1,7 +1,7 @@
 // Leaves at a tenth, a fiftieth, ... of their triangles: what leaf collapse and its peers keep of them.
 //
-//   bench_lod_leaves [--views N] [--ratio R] [--no-peers] [--projections] TREE...      .tree or .stree files
-//   that hold leaves
+//   bench_lod_leaves [--views N] [--ratio R] [--quality balanced|exact] [--no-peers] [--projections]
+//   TREE...      .tree or .stree files that hold leaves
 //
 // Each ratio of triangles at the size in pixels at which it would be shown; times are of all threads
 // together.
@@ -69,6 +69,7 @@ struct Options {
   int views = 42;
   double only = 0;  // one ratio; 0: all of them
   bool peers = true;
+  CollapseQuality quality = CollapseQuality::balanced;
   bool projections = false;  // instead: how wrong the estimates for lines and points are
 };
 
@@ -113,7 +114,7 @@ void bench(const std::filesystem::path& path, const Options& options) {
   const Looks looks{tree.materials, masks};
   const std::string name = path.stem().string();
   const auto start = Clock::now();
-  const Spectrum spectrum = collapse_spectrum(tree, looks);
+  const Spectrum spectrum = collapse_spectrum(tree, looks, {.quality = options.quality});
   const double collapse_seconds = seconds_since(start);
   const DrawnMesh full = drawn_state(spectrum, 0);
   for (const double ratio : {0.5, 0.25, 0.1, 0.05, 0.02}) {
@@ -133,6 +134,10 @@ void bench(const std::filesystem::path& path, const Options& options) {
   }
 }
 
+CollapseQuality quality_of(const std::string& name) {
+  return name == "exact" ? CollapseQuality::exact : CollapseQuality::balanced;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -146,6 +151,8 @@ int main(int argc, char** argv) {
       options.peers = false;
     else if (argument == "--projections")
       options.projections = true;
+    else if (argument == "--quality" && i + 1 < argc)
+      options.quality = quality_of(argv[++i]);
     else if (argument == "--views" && i + 1 < argc)
       options.views = std::atoi(argv[++i]);
     else if (argument == "--ratio" && i + 1 < argc)

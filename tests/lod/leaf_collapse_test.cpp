@@ -75,12 +75,14 @@ TEST(LeafCollapse, HoldsAreaAndCoverageTogether) {
 // A ball of leaves round a core of leaves.
 TEST(LeafCollapse, WhatNoOneSeesGoesFirstAndTheOutlineStays) {
   const Tree tree = LeafyTree{.leaves = 1500, .half = 0.4}.make();
-  const Spectrum s = collapse_spectrum(tree);
-  const LodJudge judge(drawn_state(s, 0), {}, {.views = 42, .image_size = 64, .mask_size = 128});
-  const LodQuality q = judge.measure(drawn_state(s, step_with(s, 1500)));
-  EXPECT_NEAR(q.area_ratio, 1, 1e-4);
-  EXPECT_GE(q.iou, 0.99);
-  EXPECT_LE(q.hull_growth, 0.02);
+  for (const CollapseQuality quality : {CollapseQuality::balanced, CollapseQuality::exact}) {
+    const Spectrum s = collapse_spectrum(tree, {}, {.quality = quality});
+    const LodJudge judge(drawn_state(s, 0), {}, {.views = 42, .image_size = 64, .mask_size = 128});
+    const LodQuality q = judge.measure(drawn_state(s, step_with(s, 1500)));
+    EXPECT_NEAR(q.area_ratio, 1, 1e-4);
+    EXPECT_GE(q.iou, quality == CollapseQuality::exact ? 0.99 : 0.985);
+    EXPECT_LE(q.hull_growth, quality == CollapseQuality::exact ? 0.02 : 0.03);
+  }
 }
 
 TEST(LeafCollapse, SeesTheGroundThroughAlpha) {

@@ -92,6 +92,40 @@ TEST(LeafMatching, CoresTakeGuestsFromEverywhereAsLongAsThereIsRoom) {
   for (const LeafMatch& m : match_leaves(leaves, options)) EXPECT_FALSE(m.core);
 }
 
+TEST(LeafMatching, ACoreTakesNoMoreThanItHolds) {
+  std::vector<MatchLeaf> leaves = cloud(400);
+  for (MatchLeaf& l : leaves) l.sole = 0, l.seen = 4;
+  leaves[17].seen = 0;
+  MatchOptions options;
+  options.most = 100, options.largest = 1, options.cores = 1, options.core = 0.2, options.room = 1;
+  options.holds = [](std::uint32_t leaf) { return leaf == 17 ? 0.055 : 1; };
+  for (const LeafMatch& m : match_leaves(leaves, options))
+    EXPECT_TRUE(!m.core || m.guests.size() == 4) << "of 0.01 m² each, beside its own";
+  options.holds = [](std::uint32_t leaf) { return leaf == 17 ? 0.0 : 1; };
+  for (const LeafMatch& m : match_leaves(leaves, options)) EXPECT_TRUE(!m.core || m.host != 17);
+}
+
+TEST(LeafMatching, ThoseWhoseFirstHostIsGoneAskAnother) {
+  std::vector<MatchLeaf> leaves = cloud(1000);
+  MatchOptions options;
+  options.most = 300;
+  EXPECT_EQ(expect_disjoint(match_leaves(leaves, options), leaves.size()), 300u);
+}
+
+TEST(LeafMatching, NeighboursInTheOrderOfTheCurveAreNear) {
+  std::vector<Double3> points;
+  for (const MatchLeaf& l : cloud(4096)) points.push_back(l.centre);
+  const std::vector<std::uint32_t> order = curve_order(points);
+  std::vector<std::uint32_t> sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  double along = 0, across = 0;
+  for (std::uint32_t i = 0; i < 4096; ++i) EXPECT_EQ(sorted[i], i);
+  for (std::uint32_t i = 1; i < 4096; ++i)
+    along += distance(points[order[i - 1]], points[order[i]]), across += distance(points[i - 1], points[i]);
+  EXPECT_LT(5 * along, across);
+  EXPECT_TRUE(curve_order({}).empty());
+}
+
 TEST(LeafMatching, KeepsWithinTheLargestAreaWhileItCan) {
   const std::vector<MatchLeaf> leaves = cloud(64);
   MatchOptions options;

@@ -170,8 +170,8 @@ void CrownField::measure_cross_section() {
 }
 
 // Which cells are the first or the last full one of a row along some axis: the hull is theirs.
-std::vector<std::uint8_t> CrownField::outer_cells() const {
-  std::vector<std::uint8_t> outer(full_.size(), 0);
+void CrownField::find_outer_cells() {
+  outer_.assign(full_.size(), 0);
   for (int axis = 0; axis < 3; ++axis) {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     std::array<int, 3> at{};
@@ -180,26 +180,27 @@ std::vector<std::uint8_t> CrownField::outer_cells() const {
       for (at[c] = 0; at[c] < size_[c]; ++at[c]) {
         for (at[axis] = 0; at[axis] < size_[axis] && !full_[here()];) ++at[axis];
         if (at[axis] == size_[axis]) continue;
-        outer[here()] = 1;
+        outer_[here()] = 1;
         for (at[axis] = size_[axis] - 1; !full_[here()];) --at[axis];
-        outer[here()] = 1;
+        outer_[here()] = 1;
       }
     }
   }
-  return outer;
 }
 
 void CrownField::measure_hull(std::span<const FoliageTriangle> triangles) {
-  const std::vector<std::uint8_t> outer = outer_cells();
+  find_outer_cells();
   std::vector<Double3> points;
   for (const FoliageTriangle& t : triangles) {
     for (const Double3& p : t.corners) {
       double outside = 0;
       const auto [x, y, z] = cell_of(p, outside);
-      if (outer[index(x, y, z)]) points.push_back(p - low_);
+      if (outer_[index(x, y, z)] != 0) points.push_back(p - low_);
     }
   }
   directions_ = view_sphere(k_hull_subdivisions).directions;
+  for (const Double3& d : directions_)
+    for (int a = 0; a < 3; ++a) axes_[a].push_back(d[a]);
   support_.assign(directions_.size(), 0);
   width_ = points.empty() ? -1 : 0;
   std::vector<std::uint8_t> done(directions_.size(), 0);
@@ -237,9 +238,22 @@ Double3 CrownField::way_back(std::span<const Double3> points, double margin) con
 
 double CrownField::excess(std::span<const Double3> points) const {
   double worst = 0;
-  for (std::size_t d = 0; width_ >= 0 && d < directions_.size(); ++d)
-    for (const Double3& p : points) worst = std::max(worst, dot(p - low_, directions_[d]) - support_[d]);
+  if (!(width_ >= 0)) return worst;
+  for (const Double3& p : points) {
+    const Double3 q = p - low_;
+    double most = 0;
+    for (std::size_t d = 0; d < support_.size(); ++d)
+      most = std::max(most, q.x * axes_[0][d] + q.y * axes_[1][d] + q.z * axes_[2][d] - support_[d]);
+    worst = std::max(worst, most);
+  }
   return worst;
+}
+
+bool CrownField::surrounded(const Double3& p) const {
+  double outside = 0;
+  const auto [x, y, z] = cell_of(p, outside);
+  const std::size_t cell = index(x, y, z);
+  return !(outside > 0) && full_[cell] != 0 && outer_[cell] == 0;
 }
 
 double CrownField::exposure(const Double3& p) const {

@@ -40,6 +40,9 @@ class CrownField {
     float emptiness = 0;
   };
   Place at(const Double3& p) const;
+  // Whether it is in a cell with foliage that has others before and behind it along all axes: no such place
+  // is out of the foliage's hull.
+  bool surrounded(const Double3& p) const;
   // The shortest move, found direction by direction, that brings the points back to within `margin` of the
   // foliage's convex hull, as far as 162 directions know it. Zero when they are there.
   Double3 way_back(std::span<const Double3> points, double margin) const;
@@ -62,7 +65,7 @@ class CrownField {
   void sweep(std::array<int, 3> step, std::vector<float>& depth) const;
   void measure_distances();
   void measure_cross_section();
-  std::vector<std::uint8_t> outer_cells() const;
+  void find_outer_cells();
   void measure_hull(std::span<const FoliageTriangle> triangles);
 
   Double3 low_{};
@@ -70,11 +73,12 @@ class CrownField {
   std::array<int, 3> size_{1, 1, 1};
   std::vector<float>
       area_;  // of foliage in the cell, opaque part, in cell sides squared: of any size of tree
-  std::vector<std::uint8_t> full_;
+  std::vector<std::uint8_t> full_, outer_;
   std::vector<float> exposure_;
   std::vector<Place> places_;
   std::vector<Double3> directions_;
-  std::vector<double> support_;  // of the foliage along each direction
+  std::array<std::vector<double>, 3> axes_;  // their coordinates
+  std::vector<double> support_;              // of the foliage along each direction
 };
 
 }  // namespace copse

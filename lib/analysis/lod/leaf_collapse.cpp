@@ -1,16 +1,15 @@
 #include "lib/analysis/lod/leaf_collapse.h"
 
 #include "lib/analysis/lod/crown_field.h"
+#include "lib/analysis/lod/leaf_elements.h"
 #include "lib/analysis/lod/leaf_matching.h"
 #include "lib/analysis/lod/leaf_pieces.h"
 #include "lib/analysis/lod/leaf_shape.h"
 #include "lib/analysis/lod/leaf_views.h"
 #include "lib/analysis/lod/radius_ancestors.h"
-#include "lib/analysis/lod/spectrum_builder.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -19,13 +18,27 @@
 namespace copse {
 namespace {
 
-using Face = std::array<std::uint32_t, 3>;
+using Face = DrawnLeaf::Face;
 
 constexpr double k_prior = 20;      // pixels that the field's word on a leaf is worth
 constexpr double k_good = 0.1;      // pixels of change in all views: no better successor is looked for
 constexpr double k_layers = 7;      // of leaves, behind which nothing is seen whichever way it lies
+constexpr double k_seen = 0.001;    // of its pixels, what a core may change in the picture when it grows
 constexpr double k_hidden = 0.02;   // of a leaf: if it covers no more alone, it may be anywhere
-constexpr double k_margin = 0.012;  // of the crown's width, out of its hull
+constexpr double k_margin = 0.008;  // of the crown's width, out of its hull
+
+// What a quality spends.
+struct Effort {
+  double leaf_pixels;  // that a leaf of mean size covers in each view
+  double round;        // of the leaves: how many at most go between two drawings
+  double sharper;      // pictures are kept until their pixels are so much too small
+  int sides;           // to which a leaf may grow
+  bool every_pixel;    // of a candidate is looked at
+};
+
+Effort effort_of(CollapseQuality quality) {
+  return quality == CollapseQuality::exact ? Effort{5, 0.12, 1.6, 4, true} : Effort{3, 0.25, 1.6, 2, false};
+}
 
 int cells_for(std::size_t triangles) {
   return std::clamp(static_cast<int>(2 * std::cbrt(double(triangles))), 8, 64);
@@ -41,32 +54,15 @@ CrownField field_of(const LeafPieces& pieces, int cells) {
   return {triangles, cells > 0 ? cells : cells_for(triangles.size())};
 }
 
-// What is drawn of a node.
-struct Drawn {
-  std::vector<SpectrumVertex> vertices;
-  std::vector<Face> faces;  // of `vertices`
-  std::vector<ViewedTriangle> viewed;
+using Drawn = DrawnLeaf;
 
-  void see() {
-    viewed.clear();
-    for (const Face& f : faces) {
-      ViewedTriangle t;
-      for (int c = 0; c < 3; ++c)
-        t.corners[c] = to_double(vertices[f[c]].position), t.texcoords[c] = vertices[f[c]].texcoord;
-      viewed.push_back(t);
-    }
-  }
-  double area() const {
-    double sum = 0;
-    for (const ViewedTriangle& t : viewed)
-      sum += 0.5 * length(cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]));
-    return sum;
-  }
-  Double3 centre() const {
-    Double3 sum{};
-    for (const SpectrumVertex& v : vertices) sum += to_double(v.position) / double(vertices.size());
-    return sum;
-  }
+// The corners of a leaf while it is moved: no more than a card's.
+struct Corners {
+  std::array<Double3, 4> at{};
+  std::size_t count = 0;
+  void push(const Double3& p) { at[count++] = p; }
+  std::span<Double3> span() { return std::span(at).first(count); }
+  std::span<const Double3> span() const { return std::span(at).first(count); }
 };
 
 // What may take the place of two leaves.
@@ -83,9 +79,10 @@ class Collapse {
       : pieces_(pieces),
         looks_(looks),
         options_(options),
+        effort_(effort_of(options.quality)),
         field_(field_of(pieces, options.cells)),
         ancestors_(tree),
-        builder_(LodMethod::collapse) {
+        elements_(pieces) {
     shape_.emptiness = options.emptiness;
     shape_.largest = options.largest * field_.cross_section();
     for (const SpectrumVertex& v : pieces.part.vertices) box_.grow(to_double(v.position));
@@ -94,11 +91,13 @@ class Collapse {
 
   Spectrum run() {
     make_nodes();
-    put_source();
-    alive_.resize(nodes_.size());
-    std::iota(alive_.begin(), alive_.end(), 0u);
+    show_source();
+    // What is near is looked at one after the other: it meets the same pixels.
+    std::vector<Double3> centres;
+    for (const Node& n : nodes_) centres.push_back(n.drawn.centre());
+    alive_ = curve_order(centres);
     while (alive_.size() > 1) round();
-    return builder_.finish();
+    return elements_.finish();
   }
 
  private:
@@ -106,7 +105,6 @@ class Collapse {
     std::uint32_t piece = 0;          // whose material and texture it has
     std::uint32_t triangle = k_none;  // of the source, when it is one of a piece's
     std::uint32_t radius = k_none, group = k_none;
-    std::uint32_t element = k_none;  // of the spectrum, while it has one of its own
     Patch patch;
     Drawn drawn;
     double displacement = 0;  // metres, of what it stands for
@@ -119,45 +117,19 @@ class Collapse {
     bool core = false, fits = true;
   };
 
-  // One node a triangle of an opaque piece, one a piece that has alpha.
   void make_nodes() {
-    for (std::uint32_t p = 0; p < pieces_.list.size(); ++p) {
-      const LeafPiece& piece = pieces_.list[p];
-      first_node_.push_back(static_cast<std::uint32_t>(nodes_.size()));
-      const auto all = std::span(pieces_.triangles).subspan(piece.first, piece.last - piece.first);
-      if (piece.card) {
-        add_source(p, k_none, all);
-      } else {
-        for (const std::uint32_t& t : all) add_source(p, t, std::span(&t, 1));
-      }
+    for (std::uint32_t n = 0; n < elements_.size(); ++n) {
+      const std::uint32_t p = elements_.piece(n);
+      const auto source = elements_.source(n);
+      Node node{.piece = p,
+                .triangle = pieces_.list[p].card ? k_none : source.front(),
+                .radius = pieces_.list[p].radius,
+                .group = pieces_.list[p].group,
+                .patch = {},
+                .drawn = elements_.drawn(n)};
+      for (const std::uint32_t t : source) node.patch += patch(t);
+      nodes_.push_back(node);
     }
-    first_node_.push_back(static_cast<std::uint32_t>(nodes_.size()));
-  }
-
-  void add_source(std::uint32_t p, std::uint32_t triangle, std::span<const std::uint32_t> triangles) {
-    Node node{.piece = p,
-              .triangle = triangle,
-              .radius = pieces_.list[p].radius,
-              .group = pieces_.list[p].group,
-              .element = k_none,
-              .patch = {},
-              .drawn = {},
-              .displacement = 0,
-              .core = false};
-    std::vector<std::uint32_t> used;
-    for (const std::uint32_t t : triangles) {
-      node.patch += patch(t);
-      Face face;
-      for (int c = 0; c < 3; ++c) {
-        const std::uint32_t v = pieces_.part.triangles[t][c];
-        const auto at = std::find(used.begin(), used.end(), v);
-        face[c] = static_cast<std::uint32_t>(at - used.begin());
-        if (at == used.end()) used.push_back(v), node.drawn.vertices.push_back(pieces_.part.vertices[v]);
-      }
-      node.drawn.faces.push_back(face);
-    }
-    node.drawn.see();
-    nodes_.push_back(std::move(node));
   }
 
   Patch patch(std::uint32_t triangle) const {
@@ -176,22 +148,22 @@ class Collapse {
     return p;
   }
 
-  void put_source() {
-    for (const SpectrumVertex& v : pieces_.part.vertices) builder_.vertex(v);
-    std::vector<Face> faces;
-    for (const LeafPiece& piece : pieces_.list) {
-      faces.clear();
-      for (std::uint32_t t = piece.first; t < piece.last; ++t)
-        faces.push_back(pieces_.part.triangles[pieces_.triangles[t]]);
-      piece_element_.push_back(builder_.element(piece.material, piece.radius, faces));
-    }
+  // The pieces as the pictures see them.
+  void show_source() {
+    for (const std::uint32_t t : pieces_.triangles) source_faces_.push_back(pieces_.part.triangles[t]);
+    for (const LeafPiece& piece : pieces_.list)
+      source_.push_back({pieces_.part.vertices,
+                         std::span(source_faces_).subspan(piece.first, piece.last - piece.first),
+                         mask_of(piece.material)});
   }
 
-  const AlphaMask* mask_of(const Node& node) const {
-    const std::uint32_t m = pieces_.list[node.piece].material;
+  const AlphaMask* mask_of(const Node& node) const { return mask_of(pieces_.list[node.piece].material); }
+  const AlphaMask* mask_of(std::uint32_t m) const {
     return m < looks_.masks.size() && !looks_.masks[m].opaque.empty() ? &looks_.masks[m] : nullptr;
   }
-  ViewedLeaf viewed(const Node& node) const { return {node.drawn.viewed, mask_of(node)}; }
+  ViewedLeaf viewed(const Node& node) const {
+    return {node.drawn.vertices(), node.drawn.triangles(), mask_of(node)};
+  }
 
   std::vector<ViewedLeaf> viewed(std::span<const std::uint32_t> nodes) const {
     std::vector<ViewedLeaf> out;
@@ -204,13 +176,13 @@ class Collapse {
     double area = 0;
     for (const std::uint32_t n : alive_) area += nodes_[n].patch.area;
     mean_area_ = area / double(alive_.size());
-    const double pixel = std::sqrt(area / (2 * options_.leaf_pixels * double(alive_.size())));
-    if (views_ && !(pixel > 1.6 * asked_)) return;
+    const double pixel = std::sqrt(area / (2 * effort_.leaf_pixels * double(alive_.size())));
+    if (views_ && !(pixel > effort_.sharper * asked_)) return;
     asked_ = std::isfinite(pixel) ? pixel : 0;
-    views_.emplace(offset_, 0.55 * length(box_.extent()), asked_, turns_++);
-    std::vector<std::uint32_t> source(first_node_.back());
-    std::iota(source.begin(), source.end(), 0u);
-    views_->set_source(viewed(source));
+    // Of very many leaves each matters less.
+    const int views = effort_.every_pixel || alive_.size() < 2000 ? LeafViews::k_most_views : 6;
+    views_.emplace(offset_, 0.55 * length(box_.extent()), asked_, turns_++, views);
+    views_->set_source(source_);
   }
 
   void round() {
@@ -218,7 +190,7 @@ class Collapse {
     const std::vector<LeafViews::Count> counts = views_->look(viewed(alive_));
     weigh(views_->coverage());
     std::vector<MatchLeaf> leaves;
-    alone_.clear();
+    alone_.clear(), vanish_.clear();
     for (std::size_t i = 0; i < alive_.size(); ++i) {
       const Node& n = nodes_[alive_[i]];
       const Patch& p = n.patch;
@@ -229,26 +201,42 @@ class Collapse {
                         covered * sure * (counts[i].sole + k_prior * open),
                         covered * sure * (0.5 * counts[i].seen + k_prior * seen), n.group});
       alone_.push_back(std::min(leaves.back().sole / covered, 1.0));
+      vanish_.push_back(counts[i].sole + options_.other * (0.5 * counts[i].seen - counts[i].sole));
     }
     weights_.room = room(counts);
+    weights_.holds = [&](std::uint32_t i) { return held(i); };
     // Of very many leaves more at a time: each of them matters less.
-    const double share = options_.round * std::clamp(std::sqrt(double(alive_.size()) / 1e4), 1.0, 2.0);
+    const double share = effort_.round * std::clamp(std::sqrt(double(alive_.size()) / 1e4), 1.0, 2.0);
     weights_.most = std::max<std::size_t>(1, std::size_t(share * double(alive_.size())));
-    const std::vector<LeafMatch> matches = match_leaves(leaves, weights_);
+    std::vector<LeafMatch> matches = match_leaves(leaves, weights_);
+    std::sort(matches.begin(), matches.end(),
+              [](const LeafMatch& x, const LeafMatch& y) { return x.host < y.host; });
     std::vector<Merge> merges(matches.size());
-    tbb::enumerable_thread_specific<LeafViews::Exchange> exchanges(
-        [&] { return LeafViews::Exchange(*views_); });
-    tbb::parallel_for(std::size_t{0}, matches.size(),
-                      [&](std::size_t i) { merges[i] = merge_of(matches[i], exchanges.local()); });
+    if (effort_.every_pixel)
+      judge<LeafViews::Exchange>(matches, merges);
+    else
+      judge<LeafViews::Estimate>(matches, merges);
     std::stable_sort(merges.begin(), merges.end(),
                      [](const Merge& x, const Merge& y) { return x.price < y.price; });
-    merges.resize((merges.size() * 3 + 3) / 4);
+    // The cheapest, with three in four of all that would go.
+    std::size_t guests = 0, kept = 0;
+    for (const Merge& m : merges) guests += m.members.size() - 1;
+    for (std::size_t gone = 0; kept < merges.size() && 4 * gone < 3 * guests; ++kept)
+      gone += merges[kept].members.size() - 1;
+    merges.resize(kept);
     // What does not fit waits: it may fit with another.
     const auto late =
         std::stable_partition(merges.begin(), merges.end(), [](const Merge& m) { return m.fits; });
     merges.erase(std::max(late, merges.begin() + 1), merges.end());
     for (Merge& m : merges) apply(m);
     std::erase(alive_, k_none);
+  }
+
+  template <class Judge>
+  void judge(std::span<const LeafMatch> matches, std::vector<Merge>& merges) const {
+    tbb::enumerable_thread_specific<Judge> judges([&] { return Judge(*views_); });
+    tbb::parallel_for(std::size_t{0}, matches.size(),
+                      [&](std::size_t i) { merges[i] = merge_of(matches[i], judges.local()); });
   }
 
   // What the cores may still take: of a crown in which leaves hide one another k_layers times over, nothing.
@@ -284,22 +272,28 @@ class Collapse {
   double limit(double area) const { return shape_.largest > 0 ? std::min(area, shape_.largest) : area; }
 
   // The best that can take the place of the alive leaves of a match.
-  Merge merge_of(const LeafMatch& match, LeafViews::Exchange& exchange) const {
-    Merge out{match.guests, {}, 0, match.core};
-    out.members.insert(out.members.begin(), match.host);
+  template <class Judge>
+  Merge merge_of(const LeafMatch& match, Judge& judge) const {
+    Merge out{{match.host}, {}, 0, match.core};
+    out.members.insert(out.members.end(), match.guests.begin(), match.guests.end());
     Patch sum;
     std::vector<ViewedLeaf> gone;
-    double triangles = 0;
+    double triangles = 0, vanish = 0;
     const Node* look = nullptr;
     for (const std::uint32_t m : out.members) {
       const Node& n = nodes_[alive_[m]];
-      sum += n.patch, gone.push_back(viewed(n)), triangles += double(n.drawn.faces.size());
+      sum += n.patch, triangles += double(n.drawn.triangles().size());
       if (look == nullptr || n.patch.visible > look->patch.visible) look = &n;
+      // What comes to a core from everywhere is not looked at again: what it shows is known.
+      if (match.core && m != match.host)
+        vanish += vanish_[m];
+      else
+        gone.push_back(viewed(n));
     }
-    exchange.remove(out.members, gone);
+    judge.remove(std::span(out.members).first(gone.size()), gone);
     const double area = limit(sum.area);
     const auto consider = [&](Successor s, const Node& like) {
-      s.cost = cost(s, like, exchange) + missing(s.drawn, area);
+      s.cost = cost(s, like, judge) + missing(s.drawn, area);
       if (s.cost < out.successor.cost) out.successor = std::move(s);
       return out.successor.cost < k_good;
     };
@@ -307,35 +301,81 @@ class Collapse {
     // First about their centres; the vertices of the better one tell to which side it should grow.
     const auto grow = [&](std::uint32_t k, std::uint32_t about) {
       const Node& n = nodes_[alive_[k]];
-      if (good || n.drawn.faces.size() > 2 || about > n.drawn.vertices.size()) return;
+      if (good || n.drawn.frond != nullptr) return;
       if (std::optional<Drawn> d = grown(n, area, about)) good = consider({std::move(*d), k}, n);
     };
     grow(match.host, 0);
-    if (match.guests.size() == 1) grow(match.guests.front(), 0);
+    if (gone.size() == 2) grow(match.guests.front(), 0);
     const std::uint32_t better = out.successor.like == k_none ? match.host : out.successor.like;
-    for (std::uint32_t about = 1; about <= 4; ++about) grow(better, about);
-    if (!good) good = consider(between(sum, *look), *look);
-    const Node& like = out.successor.like == k_none ? *look : nodes_[alive_[out.successor.like]];
-    if (!good && sum.area > 6 * mean_area_) search(out.successor, like, area, exchange);
+    for (const std::uint32_t about : sides(nodes_[alive_[better]].drawn, sum.centre() + offset_))
+      if (about != 0) grow(better, about);
+    if (!good && !match.core) {
+      good = consider(between(sum, *look), *look);
+      const Node& like = out.successor.like == k_none ? *look : nodes_[alive_[out.successor.like]];
+      if (!good && sum.area > 6 * mean_area_) search(out.successor, like, area, judge);
+    }
+    if (out.successor.drawn.corners == 0) consider(between(sum, *look), *look);
+    out.successor.cost += vanish;
     out.fits = out.successor.drawn.area() > 0.99 * area;
     out.successor.displacement = displaced(out.members, out.successor);
-    out.price = out.successor.cost / std::max(triangles - double(out.successor.drawn.faces.size()), 0.5);
+    out.price = out.successor.cost / std::max(triangles - double(out.successor.drawn.faces), 0.5);
     return out;
+  }
+
+  // The vertices (from 1 on) about which it may grow, those first that let it grow toward `goal`; 0: no more.
+  std::array<std::uint32_t, 4> sides(const Drawn& drawn, const Double3& goal) const {
+    std::array<std::uint32_t, 4> out{};
+    if (drawn.frond != nullptr) return out;
+    const Double3 c = drawn.centre();
+    std::array<double, 4> toward{};
+    for (std::uint32_t k = 0; k < drawn.corners; ++k) {
+      const double along = dot(to_double(drawn.corner[k].position) - c, goal - c);
+      std::uint32_t at = k;
+      for (; at > 0 && along < toward[at - 1]; --at) toward[at] = toward[at - 1], out[at] = out[at - 1];
+      toward[at] = along, out[at] = k + 1;
+    }
+    for (int k = effort_.sides; k < 4; ++k) out[k] = 0;
+    return out;
+  }
+
+  // The area that an alive leaf can grow to without being seen to, within the crown's hull.
+  double held(std::uint32_t place) const {
+    const Node& node = nodes_[alive_[place]];
+    if (node.drawn.frond != nullptr) return 0;
+    LeafViews::Estimate judge(*views_);
+    const ViewedLeaf gone = viewed(node);
+    judge.remove(std::span(&place, 1), std::span(&gone, 1));
+    const double per_area = views_->views() / (2 * views_->pixel() * views_->pixel());
+    const auto fits = [&](double area) {
+      for (std::uint32_t about = 0; about <= node.drawn.corners; ++about) {
+        std::optional<Drawn> d = grown(node, area, about);
+        if (d && cost({std::move(*d), place}, node, judge) < k_seen * area * per_area) return true;
+      }
+      return false;
+    };
+    double low = node.patch.area, high = std::max(shape_.largest, low);
+    for (int i = 0; i < 5; ++i) {
+      const double middle = std::sqrt(low * high);
+      (fits(middle) ? low : high) = middle;
+    }
+    return low;
   }
 
   // What the area costs that a successor lacks: as much as if all of it was to be seen.
   double missing(const Drawn& drawn, double area) const {
     const double pixel = views_->pixel();
-    return LeafViews::k_views * std::max(area - drawn.area(), 0.0) / (2 * pixel * pixel);
+    return views_->views() * std::max(area - drawn.area(), 0.0) / (2 * pixel * pixel);
   }
 
-  double cost(const Successor& s, const Node& like, LeafViews::Exchange& exchange) const {
-    const LeafViews::Change c = exchange.add({s.drawn.viewed, mask_of(like)}, s.like);
+  template <class Judge>
+  double cost(const Successor& s, const Node& like, Judge& judge) const {
+    const LeafViews::Change c = judge.add({s.drawn.vertices(), s.drawn.triangles(), mask_of(like)}, s.like);
     return c.covered + weights_.other * c.other;
   }
 
   // Compass search: moves, turns and stretches a large leaf to where it does least harm.
-  void search(Successor& best, const Node& like, double area, LeafViews::Exchange& exchange) const {
+  template <class Judge>
+  void search(Successor& best, const Node& like, double area, Judge& judge) const {
     double step = 1;
     for (int round = 0; round < 4; ++round) {
       const double before = best.cost;
@@ -343,7 +383,7 @@ class Collapse {
         std::optional<Drawn> d = varied(best.drawn, way / 2, way % 2 != 0 ? -step : step);
         if (!d) continue;
         Successor s{std::move(*d), best.like};
-        s.cost = cost(s, like, exchange) + missing(s.drawn, area);
+        s.cost = cost(s, like, judge) + missing(s.drawn, area);
         if (s.cost < best.cost) best = std::move(s);
       }
       if (best.cost >= before) step /= 2;
@@ -355,9 +395,9 @@ class Collapse {
     Drawn out = drawn;
     const Double3 c = drawn.centre();
     const double size = std::sqrt(drawn.area());
-    const ViewedTriangle& t = drawn.viewed.front();
-    const Double3 u = normalized(t.corners[1] - t.corners[0]);
-    const Double3 n = normalized(cross(u, t.corners[2] - t.corners[0]));
+    const auto corner = [&](int k) { return to_double(drawn.corner[drawn.face[0][k]].position); };
+    const Double3 u = normalized(corner(1) - corner(0));
+    const Double3 n = normalized(cross(u, corner(2) - corner(0)));
     const std::array<Double3, 3> axes{u, cross(n, u), n};
     Double3 move{};
     if (what < 3) move = axes[what] * (0.35 * step * size);
@@ -371,15 +411,14 @@ class Collapse {
       return v + axes[0] * (dot(v, axes[0]) * (stretch - 1)) +
              axes[1] * (dot(v, axes[1]) * (1 / stretch - 1));
     };
-    std::vector<Double3> corners;
-    for (SpectrumVertex& v : out.vertices) {
+    Corners corners;
+    for (SpectrumVertex& v : out.own()) {
       const Double3 r = to_double(v.position) - c;
-      corners.push_back(c + (what < 3 ? r + move : what < 6 ? turned(r) : stretched(r)));
+      corners.push(c + (what < 3 ? r + move : what < 6 ? turned(r) : stretched(r)));
       if (what >= 3 && what < 6) v.normal = to_float(normalized(turned(to_double(v.normal))));
     }
-    if (!inside(corners)) return {};
-    for (std::size_t i = 0; i < corners.size(); ++i) out.vertices[i].position = to_float(corners[i]);
-    out.see();
+    if (!inside(corners.span())) return {};
+    for (std::size_t i = 0; i < corners.count; ++i) out.corner[i].position = to_float(corners.at[i]);
     return out;
   }
 
@@ -392,27 +431,25 @@ class Collapse {
   std::optional<Drawn> grown(const Node& node, double area, std::uint32_t about) const {
     Drawn out = node.drawn;
     const double now = out.area();
-    const Double3 fixed = about == 0 ? out.centre() : to_double(out.vertices[about - 1].position);
+    const Double3 fixed = about == 0 ? out.centre() : to_double(out.corner[about - 1].position);
     const double by = now > 0 ? std::sqrt(area / now) : 1;
-    std::vector<Double3> corners;
-    bool outside = area > 16 * field_.cell() * field_.cell();
-    for (const SpectrumVertex& v : out.vertices) {
-      corners.push_back(fixed + (to_double(v.position) - fixed) * by);
-      outside = outside || field_.at(corners.back()).emptiness > 0;
+    Corners corners;
+    bool outside = false;
+    for (const SpectrumVertex& v : out.own()) {
+      corners.push(fixed + (to_double(v.position) - fixed) * by);
+      outside = outside || !field_.surrounded(corners.at[corners.count - 1]);
     }
-    if (outside) {
-      const double margin = k_margin * field_.width();
-      const Double3 back = field_.way_back(corners, margin);
-      for (Double3& c : corners) c += back;
-      if (!inside(corners)) return {};
+    if (outside && !inside(corners.span())) {
+      const Double3 back = field_.way_back(corners.span(), k_margin * field_.width());
+      for (Double3& c : corners.span()) c += back;
+      if (!inside(corners.span())) return {};
     }
-    for (std::size_t c = 0; c < corners.size(); ++c) out.vertices[c].position = to_float(corners[c]);
-    out.see();
+    for (std::size_t c = 0; c < corners.count; ++c) out.corner[c].position = to_float(corners.at[c]);
     return out;
   }
 
   // What fits nowhere is cut to what does.
-  void fit(std::vector<Double3>& corners) const {
+  void fit(std::span<Double3> corners) const {
     constexpr double k_cut = 0.9;
     for (int tries = 0; tries < 16 && !inside(corners); ++tries) {
       Double3 centre{};
@@ -435,16 +472,15 @@ class Collapse {
     const std::uint32_t triangle =
         look.triangle == k_none ? pieces_.triangles[pieces_.list[look.piece].first] : look.triangle;
     const std::array<Float2, 4> uv = pieces_.texcoords(look.piece, triangle);
-    const int n = options.card ? 4 : 3;
-    std::vector<Double3> corners(shape.corners.begin(), shape.corners.begin() + n);
-    fit(corners);
-    for (int c = 0; c < n; ++c) out.drawn.vertices.push_back({to_float(corners[c]), normal, uv[c]});
-    out.drawn.faces = {{0, 1, 2}};
-    if (options.card) out.drawn.faces.push_back({0, 2, 3});
+    const std::uint32_t n = options.card ? 4 : 3;
+    std::array<Double3, 4> corners = shape.corners;
+    fit(std::span(corners).first(n));
+    out.drawn.corners = n, out.drawn.faces = n - 2;
+    for (std::uint32_t c = 0; c < n; ++c) out.drawn.corner[c] = {to_float(corners[c]), normal, uv[c]};
+    out.drawn.face = {{{0, 1, 2}, {0, 2, 3}}};
     const Double3 front = cross(shape.corners[1] - shape.corners[0], shape.corners[2] - shape.corners[0]);
     if (dot(front, to_double(normal)) < 0)
-      for (Face& f : out.drawn.faces) std::swap(f[1], f[2]);
-    out.drawn.see();
+      for (Face& f : out.drawn.face) std::swap(f[1], f[2]);
     return out;
   }
 
@@ -467,73 +503,51 @@ class Collapse {
 
   // One leaf after the other joins the first, which grows toward what it is to be in the end.
   void apply(const Merge& merge) {
-    std::vector<std::uint32_t> gone;
-    for (const std::uint32_t m : merge.members) gone.push_back(alive_[m]), alive_[m] = k_none;
-    builder_.step(merge.successor.displacement);
-    for (const std::uint32_t n : gone) dissolve(n, gone);
-    for (const std::uint32_t n : gone)
-      if (nodes_[n].element != k_none) builder_.remove(nodes_[n].element);
-    std::uint32_t look = gone.front();
-    for (const std::uint32_t n : gone)
+    const std::uint32_t host = alive_[merge.members.front()];
+    std::uint32_t look = host;
+    gone_.clear();
+    for (const std::uint32_t m : merge.members) {
+      const std::uint32_t n = alive_[m];
       if (nodes_[n].patch.visible > nodes_[look].patch.visible) look = n;
+      gone_.push_back(n), alive_[m] = k_none;
+    }
     if (merge.successor.like != k_none)
-      for (std::size_t i = 0; i < gone.size(); ++i)
-        if (merge.members[i] == merge.successor.like) look = gone[i];
+      look = gone_[std::find(merge.members.begin(), merge.members.end(), merge.successor.like) -
+                   merge.members.begin()];
     Node node = nodes_[look];
-    node.displacement = merge.successor.displacement;
-    node.core = merge.core || nodes_[gone.front()].core;
-    node.patch = {}, node.radius = nodes_[gone.front()].radius, node.group = nodes_[gone.front()].group;
-    for (const std::uint32_t n : gone) {
+    node.core = merge.core || nodes_[host].core;
+    node.patch = {}, node.radius = nodes_[host].radius, node.group = nodes_[host].group;
+    for (const std::uint32_t n : gone_) {
       node.patch += nodes_[n].patch;
       node.radius = ancestors_.common(node.radius, nodes_[n].radius);
       if (nodes_[n].group != node.group) node.group = k_none;
     }
-    node.drawn = merge.successor.drawn;
-    node.element = put(node);
-    nodes_.push_back(std::move(node));
-    alive_[merge.members.front()] = static_cast<std::uint32_t>(nodes_.size() - 1);
-  }
-
-  // A piece of the source goes as a whole: those of its triangles that stay get elements of their own.
-  void dissolve(std::uint32_t node, std::span<const std::uint32_t> gone) {
-    if (node >= first_node_.back()) return;  // made by a merge
-    const std::uint32_t p = nodes_[node].piece;
-    if (piece_element_[p] == k_none) return;
-    builder_.remove(piece_element_[p]);
-    piece_element_[p] = k_none;
-    for (std::uint32_t n = first_node_[p]; n < first_node_[p + 1]; ++n) {
-      if (std::find(gone.begin(), gone.end(), n) != gone.end()) continue;
-      nodes_[n].element = builder_.element(pieces_.list[p].material, nodes_[n].radius,
-                                           std::span(&pieces_.part.triangles[nodes_[n].triangle], 1));
-    }
-  }
-
-  std::uint32_t put(const Node& node) {
-    std::vector<std::uint32_t> numbers;
-    for (const SpectrumVertex& v : node.drawn.vertices) numbers.push_back(builder_.vertex(v));
-    std::vector<Face> faces = node.drawn.faces;
-    for (Face& f : faces)
-      for (std::uint32_t& v : f) v = numbers[v];
-    return builder_.element(pieces_.list[node.piece].material, node.radius, faces);
+    node.displacement = merge.successor.displacement, node.drawn = merge.successor.drawn;
+    elements_.merge(gone_, node.drawn, pieces_.list[node.piece].material, node.radius, node.displacement);
+    nodes_[host] = node, alive_[merge.members.front()] = host;
   }
 
   const LeafPieces& pieces_;
   Looks looks_;
   LeafCollapseOptions options_;
+  Effort effort_;
   CrownField field_;
   RadiusAncestors ancestors_;
-  SpectrumBuilder builder_;
+  LeafElements elements_;
   ShapeOptions shape_;
   MatchOptions weights_;
   DoubleBox box_;
   Double3 offset_;
+  std::vector<Face> source_faces_;  // piece after piece
+  std::vector<ViewedLeaf> source_;
   std::optional<LeafViews> views_;
   double asked_ = 0, mean_area_ = 0, hidden_share_ = -1;
   std::uint64_t turns_ = 0;
   std::vector<Node> nodes_;
+  std::vector<std::uint32_t> gone_;
   std::vector<std::uint32_t> alive_;
-  std::vector<double> alone_;  // of each alive leaf the share that no other covers
-  std::vector<std::uint32_t> first_node_, piece_element_;
+  // Of each alive leaf the share that no other covers; what it costs when it vanishes, pixels.
+  std::vector<double> alone_, vanish_;
 };
 
 }  // namespace

@@ -15,14 +15,17 @@
 
 namespace copse {
 
+// balanced: pictures of three pixels a leaf decide, at some points of each candidate; exact: pictures of five
+// pixels, drawn again after half as many changes, more candidates, and all of their pixels.
+enum class CollapseQuality : std::uint8_t { balanced, exact };
+
 struct LeafCollapseOptions {
-  int cells = 0;           // of the crown's grid along its longest side; 0: as many as the leaves call for
-  double largest = 0.36;   // of a leaf's area, as a share of the crown's cross-section: what fits inside
-  double emptiness = 2;    // how much reaching into empty space counts beside moving
-  int window = 8;          // neighbours looked at on each side
-  double leaf_pixels = 5;  // that a leaf of mean size covers in each view
-  double round = 0.12;     // of the leaves: how many pairs at most are merged between two drawings
-  double other = 0.04;     // what a pixel counts that shows another leaf, beside one that is lost or gained
+  CollapseQuality quality = CollapseQuality::balanced;
+  int cells = 0;          // of the crown's grid along its longest side; 0: as many as the leaves call for
+  double largest = 0.36;  // of a leaf's area, as a share of the crown's cross-section: what fits inside
+  double emptiness = 2;   // how much reaching into empty space counts beside moving
+  int window = 8;         // neighbours looked at on each side
+  double other = 0.04;    // what a pixel counts that shows another leaf, beside one that is lost or gained
 };
 
 // The spectrum of the tree's leaves; without elements when it has none. An opaque leaf becomes a triangle,
@@ -32,8 +35,8 @@ struct LeafCollapseOptions {
 // twigs hangs on the lowest radius that bears them all. The sum of areas stays the same as long as it fits
 // (`largest`). A step's error, metres: how far ground that
 // only one leaf covers is from what stands for that leaf, as estimated, the largest so far. Steps come in the
-// order of what they change in the picture, as far as can be. Deterministic. O(n log n) and 12 pictures a
-// round; rounds: log(n) / log(1 / (1 - round)).
+// order of what they change in the picture, as far as can be. Deterministic. O(n log n): each round draws
+// what is left from 6 or 12 sides and takes away an eighth to a fourth of it.
 Spectrum collapse_spectrum(const Tree& tree, const Looks& looks = {},
                            const LeafCollapseOptions& options = {});
 

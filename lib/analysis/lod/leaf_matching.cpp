@@ -1,6 +1,7 @@
 #include "lib/analysis/lod/leaf_matching.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,7 +11,11 @@ namespace {
 constexpr double k_turning = 0.125;  // of a leaf's area: turning it by a right angle moves it so far, squared
 constexpr double k_near = 0.005;  // of what a match covers: what one as far apart as the crown is wide costs
 constexpr double k_stranger = 4;  // squared: how much farther leaves of another group are
-constexpr std::uint32_t k_nobody = 0xffffffffu;
+constexpr std::uint32_t k_nobody = 0xffffffffu, k_core = 0xfffffffeu;
+constexpr int k_offers = 3;                    // hosts that a guest asks, one after the other
+constexpr std::size_t k_asked = 4;             // leaves that are asked for each core that is wanted
+constexpr double k_growth = 1.2;               // by so much a core must be able to grow
+constexpr std::size_t k_most_guests = 0x7fff;  // of one host, however small they are
 
 // Spreads the low 21 bits over every third bit.
 std::uint64_t spread(std::uint64_t x) {
@@ -41,34 +46,45 @@ class Matching {
   }
 
  private:
+  struct Offer {
+    float price;
+    std::uint32_t guest, host;
+    friend bool operator<(const Offer& x, const Offer& y) {
+      if (x.price != y.price) return x.price < y.price;
+      return x.guest != y.guest ? x.guest < y.guest : x.host < y.host;
+    }
+  };
+
   std::vector<LeafMatch> take(bool fitting) {
-    std::vector<std::uint32_t> cheapest(leaves_.size());
-    for (std::uint32_t i = 0; i < cheapest.size(); ++i) cheapest[i] = i;
-    std::sort(cheapest.begin(), cheapest.end(), [&](std::uint32_t x, std::uint32_t y) {
-      return price_[x] != price_[y] ? price_[x] < price_[y] : x < y;
-    });
     gone_.assign(leaves_.size(), 0), guests_.assign(leaves_.size(), 0);
+    match_of_.assign(leaves_.size(), k_nobody);
     area_.clear();
     for (const MatchLeaf& l : leaves_) area_.push_back(l.area);
-    std::vector<std::uint32_t> match_of(leaves_.size(), k_nobody);
     std::vector<LeafMatch> out;
-    std::size_t taken = 0;
-    for (const std::uint32_t guest : cheapest) {
-      if (taken == options_.most) break;
-      if (match_of[guest] != k_nobody) continue;
-      std::uint32_t host = wants_core_[guest] != 0 ? core_for(guest) : k_nobody;
-      const bool core = host != k_nobody;
-      if (!core) host = host_[guest];
+    std::size_t taken = 0, sorted = 0;
+    // Few of the offers are ever looked at: they are sorted as they are needed.
+    for (std::size_t i = 0; i < offers_.size() && taken < options_.most; ++i) {
+      if (i == sorted) {
+        sorted = std::min(offers_.size(), std::max<std::size_t>(2 * sorted, 2 * options_.most + 64));
+        if (sorted < offers_.size())
+          std::nth_element(offers_.begin() + i, offers_.begin() + sorted, offers_.end());
+        std::sort(offers_.begin() + i, offers_.begin() + sorted);
+      }
+      const std::uint32_t guest = offers_[i].guest;
+      if (match_of_[guest] != k_nobody) continue;
+      std::uint32_t host = offers_[i].host;
+      const bool core = host == k_core;
+      if (core) host = core_for(guest);
       if (host == k_nobody || gone_[host] != 0 || !takes(host, guest, fitting)) continue;
-      if (match_of[host] == k_nobody) {
-        match_of[host] = static_cast<std::uint32_t>(out.size());
+      if (match_of_[host] == k_nobody) {
+        match_of_[host] = static_cast<std::uint32_t>(out.size());
         out.push_back({host, {}, false});
       }
-      LeafMatch& match = out[match_of[host]];
+      LeafMatch& match = out[match_of_[host]];
       match.core = match.core || core;
       if (core) options_.room -= leaves_[guest].area;
       match.guests.push_back(guest);
-      match_of[guest] = match_of[host], gone_[guest] = 1, ++taken;
+      match_of_[guest] = match_of_[host], gone_[guest] = 1, ++taken;
       area_[host] += leaves_[guest].area, ++guests_[host];
     }
     return out;
@@ -80,8 +96,8 @@ class Matching {
     const double area = area_[host] + leaves_[guest].area;
     if (options_.largest > 0 && area > options_.largest) return false;
     if (guests_[host] < options_.guests) return true;
-    return std::find(cores_.begin(), cores_.end(), host) != cores_.end() &&
-           area < std::max(2 * leaves_[host].area, options_.core * options_.largest);
+    const auto core = std::find(cores_.begin(), cores_.end(), host);
+    return core != cores_.end() && guests_[host] < k_most_guests && area < held_[core - cores_.begin()];
   }
 
   std::uint32_t core_for(std::uint32_t guest) const {
@@ -97,12 +113,18 @@ class Matching {
     for (std::uint32_t i = 0; i < leaves_.size(); ++i)
       if (options_.largest <= 0 || 1.2 * leaves_[i].area < options_.largest) all.push_back(i);
     const std::size_t n = options_.room > 0 ? std::min({options_.cores, all.size(), leaves_.size() / 16}) : 0;
-    std::partial_sort(all.begin(), all.begin() + n, all.end(), [&](std::uint32_t x, std::uint32_t y) {
+    // Some of them have no room to grow.
+    const std::size_t asked = std::min(k_asked * n, all.size());
+    std::partial_sort(all.begin(), all.begin() + asked, all.end(), [&](std::uint32_t x, std::uint32_t y) {
       const double p = harm(leaves_[x]), q = harm(leaves_[y]);
       if (p != q) return p < q;
       return leaves_[x].area != leaves_[y].area ? leaves_[x].area > leaves_[y].area : x < y;
     });
-    cores_.assign(all.begin(), all.begin() + n);
+    for (std::size_t i = 0; i < asked && cores_.size() < n; ++i) {
+      const double area = leaves_[all[i]].area, wanted = std::max(2 * area, options_.core * options_.largest);
+      const double held = options_.holds ? std::min(options_.holds(all[i]), wanted) : wanted;
+      if (held > k_growth * area) cores_.push_back(all[i]), held_.push_back(held);
+    }
   }
 
   // Of growing, for each pixel that is covered more.
@@ -112,18 +134,10 @@ class Matching {
   }
 
   void sort() {
-    const Double3 e = box_.empty() ? Double3{} : box_.extent();
-    const double scale = std::max({e.x, e.y, e.z});
-    const auto cell = [&](double v) {
-      return static_cast<std::uint64_t>(scale > 0 ? std::clamp(v / scale, 0.0, 1.0) * 0x1fffff : 0);
-    };
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
-    for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
-      const Double3 c = leaves_[i].centre - box_.min;
-      keyed.emplace_back(spread(cell(c.x)) | spread(cell(c.y)) << 1 | spread(cell(c.z)) << 2, i);
-    }
-    std::sort(keyed.begin(), keyed.end());
-    for (const auto& [key, i] : keyed) order_.push_back(i);
+    std::vector<Double3> centres;
+    centres.reserve(leaves_.size());
+    for (const MatchLeaf& l : leaves_) centres.push_back(l.centre);
+    order_ = curve_order(centres);
   }
 
   // `guest` vanishes, `host` has its area beside its own.
@@ -148,9 +162,13 @@ class Matching {
 
   void find_hosts() {
     const auto n = static_cast<std::uint32_t>(order_.size());
-    host_.assign(n, k_nobody), price_.assign(n, std::numeric_limits<double>::infinity());
+    constexpr Offer k_none_yet{std::numeric_limits<float>::infinity(), 0, k_nobody};
+    std::vector<std::array<Offer, k_offers>> best(n);
+    for (auto& offers : best) offers.fill(k_none_yet);
     const auto offer = [&](std::uint32_t guest, std::uint32_t host, double cost) {
-      if (cost < price_[guest]) price_[guest] = cost, host_[guest] = host;
+      Offer o{static_cast<float>(cost), guest, host};
+      for (Offer& kept : best[guest])
+        if (o.price < kept.price) std::swap(o, kept);
     };
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t a = order_[i];
@@ -163,14 +181,14 @@ class Matching {
         offer(a, b, both + std::min(a_goes, between_));
       }
     }
-    wants_core_.assign(n, 0);
-    if (cores_.empty()) return;
-    const MatchLeaf& core = leaves_[cores_.back()];
+    std::vector<std::uint8_t> is_core(n, 0);
+    for (const std::uint32_t c : cores_) is_core[c] = 1;
     for (std::uint32_t guest = 0; guest < n; ++guest) {
-      const double price = absorbed(core, leaves_[guest]);
-      if (price < price_[guest]) price_[guest] = price, wants_core_[guest] = 1;
+      if (is_core[guest] != 0) continue;
+      if (!cores_.empty()) offer(guest, k_core, absorbed(leaves_[cores_.back()], leaves_[guest]));
+      for (const Offer& o : best[guest])
+        if (o.host != k_nobody) offers_.push_back(o);
     }
-    for (const std::uint32_t c : cores_) host_[c] = k_nobody, wants_core_[c] = 0;
   }
 
   std::span<const MatchLeaf> leaves_;
@@ -179,13 +197,37 @@ class Matching {
   double per_width_ = 0;
   mutable double between_ = 0;
   std::vector<std::uint32_t> order_;  // along the curve
-  std::vector<std::uint32_t> host_, cores_;
-  std::vector<double> price_, area_;  // area_: of a host with its guests
+  std::vector<std::uint32_t> cores_, match_of_;
+  std::vector<Offer> offers_;
+  std::vector<double> held_;  // what each core can grow to
+  std::vector<double> area_;  // of a host with its guests
   std::vector<std::size_t> guests_;
-  std::vector<std::uint8_t> gone_, wants_core_;
+  std::vector<std::uint8_t> gone_;
 };
 
 }  // namespace
+
+std::vector<std::uint32_t> curve_order(std::span<const Double3> points) {
+  DoubleBox box;
+  for (const Double3& p : points) box.grow(p);
+  const Double3 e = box.empty() ? Double3{} : box.extent();
+  const double longest = std::max({e.x, e.y, e.z}), scale = longest > 0 ? 0x1fffff / longest : 0;
+  const auto cell = [&](double v) {
+    return static_cast<std::uint64_t>(std::isfinite(scale) ? std::clamp(v * scale, 0.0, double(0x1fffff))
+                                                           : 0);
+  };
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+  keyed.reserve(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const Double3 c = points[i] - box.min;
+    keyed.emplace_back(spread(cell(c.x)) | spread(cell(c.y)) << 1 | spread(cell(c.z)) << 2, i);
+  }
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<std::uint32_t> order;
+  order.reserve(keyed.size());
+  for (const auto& [key, i] : keyed) order.push_back(i);
+  return order;
+}
 
 std::vector<LeafMatch> match_leaves(std::span<const MatchLeaf> leaves, const MatchOptions& options) {
   return Matching(leaves, options).run();

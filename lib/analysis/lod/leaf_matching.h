@@ -12,6 +12,7 @@
 #include "lib/formats/vec.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -43,7 +44,12 @@ struct MatchOptions {
   std::size_t cores = 8;  // hosts that take guests from everywhere, until they are twice as large or ...
   double core = 0.5;      // ... this share of `largest`
   double room = 0;        // m², that all cores together may take
+  // The area that a leaf can grow to where it is, m²: asked of cores alone. Empty: any.
+  std::function<double(std::uint32_t)> holds;
 };
+
+// The points in the order of a space-filling curve (Morton's): what is near in it is near in space.
+std::vector<std::uint32_t> curve_order(std::span<const Double3> points);
 
 // No leaf is in two matches. Of two leaves or more at least one match. Deterministic. O(n (log n + window)).
 std::vector<LeafMatch> match_leaves(std::span<const MatchLeaf> leaves, const MatchOptions& options);

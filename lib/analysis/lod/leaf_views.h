@@ -1,12 +1,13 @@
 // leaf_views: a crown from all round, as counts: which leaves cover ground that no other covers, which are
 // seen, and what a change of a few leaves would do to the picture.
 //
-// Twelve views over one half of the sphere (the other half shows the same outlines); each pixel knows how
-// many leaves cover it and which is nearest to the viewer, on either side. So one drawing answers for all
+// Up to twelve views over one half of the sphere (the other half shows the same outlines); each pixel knows
+// how many leaves cover it and which is nearest to the viewer, on either side. So one drawing answers for all
 // leaves what digest 001, section 5.2, asks of one cell at a time.
 #pragma once
 
-#include "lib/analysis/measure/alpha_raster.h"
+#include "lib/analysis/lod/leaf_raster.h"
+#include "lib/formats/spectrum.h"
 
 #include <array>
 #include <cstdint>
@@ -15,20 +16,16 @@
 
 namespace copse {
 
-struct ViewedTriangle {
-  std::array<Double3, 3> corners;
-  std::array<Float2, 3> texcoords{};
-};
-
 // One leaf: some triangles, of one material.
 struct ViewedLeaf {
-  std::span<const ViewedTriangle> triangles;
-  const AlphaMask* mask = nullptr;  // null: opaque
+  std::span<const SpectrumVertex> vertices;
+  std::span<const std::array<std::uint32_t, 3>> triangles;  // of `vertices`
+  const AlphaMask* mask = nullptr;                          // null: opaque
 };
 
 class LeafViews {
  public:
-  static constexpr int k_views = 12;
+  static constexpr int k_most_views = 12;
 
   // In pixels, summed over the views.
   struct Count {
@@ -45,17 +42,32 @@ class LeafViews {
     double other = 0;  // that show another leaf than before, half for each side
   };
 
-  // Sees the ball. `turn` picks one of many orientations of the set of views. `pixel`: side of a pixel; the
-  // pictures are kept between 16 and 512 pixels wide, whatever it says.
-  LeafViews(const Double3& centre, double radius, double pixel, std::uint64_t turn);
+ private:
+  struct Pixel {
+    // The nearest leaf from either side: its depth, in steps, above its number.
+    std::uint64_t front = 0, back = ~std::uint64_t{0};
+    std::uint32_t count = 0;  // of leaves
+    std::uint32_t front_leaf() const { return static_cast<std::uint32_t>(front); }
+    std::uint32_t back_leaf() const { return static_cast<std::uint32_t>(back); }
+    // What it is worth to cover the pixel: 1 where the source does, -1 where not, more where coverage is low.
+    float value = 0;
+  };
+
+ public:
+  // Sees the ball from `views` sides, 1 to k_most_views. `turn` picks one of many orientations of the set of
+  // views. `pixel`: side of a pixel; the pictures are kept between 16 and 512 pixels wide, whatever it says.
+  LeafViews(const Double3& centre, double radius, double pixel, std::uint64_t turn, int views = k_most_views);
 
   // What coverage is compared with from now on: what is there.
   void set_source(std::span<const ViewedLeaf> leaves);
   // Draws the leaves and keeps the drawing. A leaf is its index. Views in parallel; exact integers.
   std::vector<Count> look(std::span<const ViewedLeaf> leaves);
   // Covered pixels of the last drawing over those of the source; 1 without a source.
-  double coverage() const;
+  double coverage() const {
+    return source_count_ > 0 ? static_cast<double>(count_) / static_cast<double>(source_count_) : 1;
+  }
   double pixel() const { return pixel_; }
+  int views() const { return static_cast<int>(eyes_.size()); }
 
   // Judges what may take the place of some leaves of the last drawing. One for each thread.
   class Exchange {
@@ -68,8 +80,8 @@ class LeafViews {
 
    private:
     struct Mark {
-      std::uint32_t count = 0;  // leaves that are taken away, each once
-      std::uint32_t last = k_none;
+      std::uint16_t count = 0;  // leaves that are taken away, each once
+      std::uint16_t last = 0;   // of them, from 1 on
     };
     bool taken(std::uint32_t leaf) const;
     const LeafViews& views_;
@@ -80,26 +92,58 @@ class LeafViews {
     std::vector<std::uint32_t> touched_;  // pixels with a mark
   };
 
- private:
-  struct Pixel {
-    float front = 0, back = 0;  // depth of the nearest leaf from either side
-    std::uint32_t front_leaf = k_none, back_leaf = k_none, last_leaf = k_none;
-    std::uint32_t count = 0;
+  // The same from some points of each leaf instead of all of its pixels, as many as it has in a view on
+  // average: several times as fast. Where more than two leaves cover a pixel, none of it counts as theirs
+  // alone.
+  class Estimate {
+   public:
+    explicit Estimate(const LeafViews& views) : views_(views) {}
+    void remove(std::span<const std::uint32_t> numbers, std::span<const ViewedLeaf> leaves);
+    Change add(const ViewedLeaf& leaf, std::uint32_t like) const;
+
+   private:
+    bool taken(std::uint32_t leaf) const;
+    // Whether nothing but what is taken away covers the pixel.
+    bool alone(const Pixel& pixel) const;
+    const LeafViews& views_;
+    std::vector<std::uint32_t> numbers_;
+    Change removed_;
   };
+
+ private:
+  std::uint64_t key(float depth, std::uint32_t leaf) const {
+    const float steps = std::min(std::max(0.0f, depth * per_step_ + 0x1p30f), 0x1p31f);
+    return std::uint64_t{static_cast<std::uint32_t>(steps)} << 32 | leaf;
+  }
+  // A triangle round the ball's centre.
+  struct Local {
+    std::array<Float3, 3> corners;
+    std::array<Float2, 3> texcoords;
+    const AlphaMask* mask;
+  };
+  Local local(const ViewedLeaf& leaf, std::size_t triangle) const;
   template <class See>
-  void draw(const ViewedLeaf& leaf, std::size_t view, See&& see) const;
+  void draw(const Local& triangle, std::size_t view, See&& see) const;
+  // Calls see(pixel, depth, weight) for some points of the leaf in all views; a weight is in pixels.
+  template <class See>
+  void sample(const ViewedLeaf& leaf, See&& see) const;
+  // Triangles leaf after leaf; the first one of each leaf, and one number more.
+  struct Scene {
+    std::vector<Local> triangles;
+    std::vector<std::uint32_t> first;
+  };
+  Scene scene(std::span<const ViewedLeaf> leaves) const;
+  void look(const Scene& scene, std::size_t view, std::vector<Count>& counts);
+  void balance(std::size_t view);
+  std::span<Pixel> pixels_of(std::size_t view) { return std::span(seen_).subspan(view * pixels_, pixels_); }
 
-  std::vector<OrthographicView> views_;
+  std::vector<LeafEye> eyes_;
+  Double3 centre_;
   double pixel_ = 1;
-  std::size_t pixels_ = 0;  // of one view
-  void balance();
-  // What it is worth to cover a pixel: 1 where the source does, -1 where not, more where coverage is low.
-  float value(std::size_t pixel) const;
-
-  std::vector<std::uint8_t> source_;  // 1: covered; view after view
-  std::vector<float> excess_;         // of coverage round a pixel, -1 to 1; one a block
-  float too_much_ = 0;                // coverage of the whole crown, -1 to 1
-  int blocks_ = 0;                    // of a view, along each side
+  float per_step_ = 0;                          // steps of depth a metre
+  std::size_t pixels_ = 0;                      // of one view
+  std::vector<std::uint8_t> source_;            // 1: covered; view after view
+  std::uint64_t source_count_ = 0, count_ = 0;  // covered pixels of the source, of the last drawing
   std::vector<Pixel> seen_;
 };
 

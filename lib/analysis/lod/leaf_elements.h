@@ -1,0 +1,92 @@
+// leaf_elements: the leaves that a collapse works on, and the spectrum that becomes of them.
+//
+// A node is what collapses as one: a triangle of an opaque piece (the cheapest leaf there is), a whole piece
+// that is cut out of a picture. In the spectrum a piece is one element until the first of its nodes goes.
+#pragma once
+
+#include "lib/analysis/lod/leaf_pieces.h"
+#include "lib/analysis/lod/spectrum_builder.h"
+
+#include <array>
+#include <cmath>
+#include <deque>
+#include <span>
+#include <vector>
+
+namespace copse {
+
+// A piece of the source that is more than a card.
+struct Frond {
+  std::vector<SpectrumVertex> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+// What is drawn of a node.
+struct DrawnLeaf {
+  using Face = std::array<std::uint32_t, 3>;
+  std::array<SpectrumVertex, 4> corner{};
+  std::array<Face, 2> face{};
+  std::uint32_t corners = 0, faces = 0;
+  const Frond* frond = nullptr;  // instead of these
+
+  std::span<const SpectrumVertex> vertices() const {
+    return frond != nullptr ? std::span<const SpectrumVertex>(frond->vertices)
+                            : std::span(corner).first(corners);
+  }
+  std::span<const Face> triangles() const {
+    return frond != nullptr ? std::span<const Face>(frond->triangles) : std::span(face).first(faces);
+  }
+  std::span<SpectrumVertex> own() { return std::span(corner).first(corners); }
+  double area() const {
+    double sum = 0;
+    const auto v = vertices();
+    for (const Face& f : triangles()) {
+      const Double3 a = to_double(v[f[0]].position);
+      const Double3 n = cross(to_double(v[f[1]].position) - a, to_double(v[f[2]].position) - a);
+      sum += 0.5 * std::sqrt(dot(n, n));
+    }
+    return sum;
+  }
+  Double3 centre() const {
+    Double3 sum{};
+    for (const SpectrumVertex& v : vertices()) sum += to_double(v.position);
+    return sum / double(vertices().size());
+  }
+};
+
+class LeafElements {
+ public:
+  // Keeps a reference to `pieces`.
+  explicit LeafElements(const LeafPieces& pieces);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(piece_.size()); }  // nodes at full detail
+  std::uint32_t piece(std::uint32_t node) const { return piece_[node]; }
+  // The triangles of `pieces.part` that the node is at full detail.
+  std::span<const std::uint32_t> source(std::uint32_t node) const;
+  // A frond lives as long as this.
+  DrawnLeaf drawn(std::uint32_t node);
+
+  // One step: all of `nodes` go, and the first of them is from now on what is drawn here. `error`: metres, of
+  // the state before. Cost: the nodes, and once the triangles of each piece.
+  void merge(std::span<const std::uint32_t> nodes, const DrawnLeaf& leaf, std::uint32_t material,
+             std::uint32_t radius, double error);
+  // What the builder says of the steps so far. Leaves nothing here.
+  Spectrum finish() { return builder_.finish(); }
+
+ private:
+  void dissolve(std::uint32_t node);
+  std::uint32_t put(const DrawnLeaf& leaf, std::uint32_t material, std::uint32_t radius);
+
+  const LeafPieces& pieces_;
+  SpectrumBuilder builder_;
+  std::vector<std::uint32_t> piece_;               // of each node
+  std::vector<std::uint32_t> first_;               // node of each piece, and one number more
+  std::vector<std::uint32_t> element_;             // of each node, while it has one of its own
+  std::vector<std::uint32_t> piece_element_;       // of each piece, while it is whole
+  std::vector<std::uint8_t> gone_;                 // of each node: one of a merge
+  std::vector<std::uint32_t> number_, used_;       // while a leaf is drawn
+  std::vector<std::array<std::uint32_t, 3>> put_;  // while one is put
+  std::deque<Frond> fronds_;
+};
+
+}  // namespace copse
