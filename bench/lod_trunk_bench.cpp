@@ -3,6 +3,7 @@
 //
 //   probe_lod_trunk [--speed] TREE...      .tree or .stree files
 #include "lib/analysis/lod/edge_collapse.h"
+#include "lib/analysis/lod/edge_spectrum.h"
 #include "lib/analysis/lod/trunk_radii.h"
 #include "lib/analysis/measure/drawn_mesh.h"
 #include "lib/analysis/measure/raster.h"

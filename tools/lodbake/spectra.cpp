@@ -2,6 +2,7 @@
 
 #include "lib/analysis/lod/coupling.h"
 #include "lib/analysis/lod/edge_collapse.h"
+#include "lib/analysis/lod/edge_spectrum.h"
 #include "lib/analysis/lod/floating_leaves.h"
 #include "lib/analysis/lod/foliage_pruning.h"
 #include "lib/analysis/lod/leaf_collapse.h"

@@ -1,5 +1,6 @@
 #include "lib/analysis/lod/coupling.h"
 #include "lib/analysis/lod/edge_collapse.h"
+#include "lib/analysis/lod/edge_spectrum.h"
 #include "lib/analysis/lod/foliage_pruning.h"
 #include "lib/analysis/measure/lod_quality.h"
 #include "lib/runtime/levels.h"

@@ -1,60 +1,77 @@
 #include "lib/analysis/lod/edge_collapse.h"
 
 #include "lib/analysis/lod/edge_quadric.h"
-#include "lib/analysis/lod/spectrum_builder.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace copse {
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
+// What is at the corners of a triangle; the fourth number is not used.
+using Corners = std::array<std::uint32_t, 4>;
 using Attributes = std::array<float, k_attributes>;
 
 constexpr float k_border_weight = 10;  // of a plane across a border or a seam
-constexpr double k_pass_share = 0.35;  // of the candidates that a pass goes through, cheapest first
-constexpr float k_pass_slack = 1.5f;   // beyond the cost of the last of them
+constexpr double k_pass_share = 0.4;   // of the vertices that a pass goes through, cheapest first
+constexpr double k_few = 0.02;        // a pass that makes fewer of them go is followed by one that tries more
+constexpr float k_pass_slack = 1.5f;  // beyond the cost of the last of them
 
 enum class Kind : std::uint8_t { inner, border, seam, fixed };
 
+// The corner that follows and the one before in the same triangle; corners are 4 * triangle + place in it.
 std::uint32_t next_corner(std::uint32_t c) {
-  return c == 2 ? 0 : c + 1;
+  return (c & 3) == 2 ? c - 2 : c + 1;
+}
+std::uint32_t previous_corner(std::uint32_t c) {
+  return (c & 3) == 0 ? c + 2 : c - 1;
 }
 
 struct Candidate {
-  std::uint32_t thrown = 0, kept = 0;  // positions
+  std::uint32_t thrown = k_none, kept = k_none;  // positions
   float cost = 0;
+};
+
+// All vertices of a position with the same texture coordinate: one value of the attributes, their normals'
+// mean.
+struct Node {
+  Float3 place;
+  Attributes attributes{};
 };
 
 class Collapser {
  public:
   Collapser(const PartTriangles& mesh, const EdgeCollapseOptions& options) : mesh_(mesh), options_(options) {
-    triangles_ = mesh.triangles;
     number_positions();
-    drop_degenerate();
+    number_nodes();
+    place_triangles();
     build_rings();
+    find_opposites();
     classify();
     add_quadrics();
+    opposite_ = {};
   }
 
   EdgeCollapses run() {
-    bool all = false;
+    double share = k_pass_share;
     while (triangles_.size() > options_.min_triangles) {
-      build_rings();
       collect();
-      if (candidates_.empty()) break;
-      const std::size_t made = pass(all);
+      const std::size_t made = candidates_.empty() ? 0 : pass(share);
+      if (made == 0 && (share >= 1 || candidates_.empty())) break;
+      const bool few = static_cast<double>(made) < k_few * static_cast<double>(candidates_.size());
+      share = few ? std::min(1.0, 2 * share) : k_pass_share;
       drop_degenerate();
-      if (made == 0 && all) break;
-      all = made == 0;
+      build_rings();
     }
     out_.triangles = triangles_.size();
     return std::move(out_);
   }
 
  private:
+  // ---- the mesh: positions, nodes (what is one in texture), wedges (the mesh's vertices)
+
   // One number for every place; coordinates in a unit box.
   void number_positions() {
     std::uint32_t count = 0;
@@ -64,175 +81,408 @@ class Collapser {
     for (const SpectrumVertex& v : mesh_.vertices) box.grow(to_double(v.position));
     size_ = box.empty() ? 1 : std::max(length(box.extent()), 1e-300);
     const Double3 low = box.empty() ? Double3{} : box.min;
-    Float2 uv_low{}, uv_high{};
-    for (const SpectrumVertex& v : mesh_.vertices) {
-      uv_low = {std::min(uv_low.x, v.texcoord.x), std::min(uv_low.y, v.texcoord.y)};
-      uv_high = {std::max(uv_high.x, v.texcoord.x), std::max(uv_high.y, v.texcoord.y)};
-    }
-    const float weight = static_cast<float>(options_.attribute_weight) * 0.1f;
-    attributes_.resize(mesh_.vertices.size());
-    for (std::uint32_t v = mesh_.vertices.size() & 0xffffffffu; v-- > 0;) {
-      const std::uint32_t p = mesh_.position_of[v];
+    for (auto v = static_cast<std::uint32_t>(mesh_.vertices.size()); v-- > 0;) {
+      const std::uint32_t p = place(v);
       places_[p] = to_float((to_double(mesh_.vertices[v].position) - low) / size_);
       next_wedge_[v] = wedge_[p], wedge_[p] = v;
-      const SpectrumVertex& x = mesh_.vertices[v];
-      const float repeats = std::max({1.0f, uv_high.x - uv_low.x, uv_high.y - uv_low.y});
-      attributes_[v] = {weight * x.normal.x, weight * x.normal.y, weight * x.normal.z,
-                        weight * x.texcoord.x / repeats * 4, weight * x.texcoord.y / repeats * 4};
     }
-    quadrics_.resize(count), attribute_quadrics_.resize(mesh_.vertices.size());
+    quadrics_.resize(count);
     kinds_.assign(count, Kind::inner), stamp_.assign(count, 0), touched_.assign(count, 0);
-    moved_.resize(mesh_.vertices.size());
-    for (std::uint32_t v = 0; v < moved_.size(); ++v) moved_[v] = v;
+    stale_.assign(count, 1), refused_.assign(count, 0), best_.resize(count);
+  }
+
+  void number_nodes() {
+    Float2 low{}, high{};
+    for (const SpectrumVertex& v : mesh_.vertices) {
+      low = {std::min(low.x, v.texcoord.x), std::min(low.y, v.texcoord.y)};
+      high = {std::max(high.x, v.texcoord.x), std::max(high.y, v.texcoord.y)};
+    }
+    const float weight = static_cast<float>(options_.attribute_weight) * 0.1f,
+                repeats = std::max({1.0f, high.x - low.x, high.y - low.y});
+    node_of_.resize(mesh_.vertices.size());
+    first_node_.assign(1, 0);
+    for (std::uint32_t p = 0; p < places_.size(); ++p) {
+      for (std::uint32_t v = wedge_[p]; v != k_none; v = next_wedge_[v]) {
+        std::uint32_t like = wedge_[p];
+        while (!same_texcoord(like, v)) like = next_wedge_[like];
+        const SpectrumVertex& x = mesh_.vertices[v];
+        if (like == v) {
+          node_of_[v] = static_cast<std::uint32_t>(nodes_.size());
+          nodes_.push_back(
+              {places_[p],
+               {0, 0, 0, weight * x.texcoord.x / repeats * 4, weight * x.texcoord.y / repeats * 4}});
+        } else {
+          node_of_[v] = node_of_[like];
+        }
+        Attributes& a = nodes_[node_of_[v]].attributes;
+        a[0] += x.normal.x, a[1] += x.normal.y, a[2] += x.normal.z;
+      }
+      for (std::size_t n = first_node_.back(); n < nodes_.size(); ++n) {
+        Attributes& a = nodes_[n].attributes;
+        const Float3 normal = to_float(normalized(to_double({a[0], a[1], a[2]})));
+        a[0] = weight * normal.x, a[1] = weight * normal.y, a[2] = weight * normal.z;
+      }
+      first_node_.push_back(static_cast<std::uint32_t>(nodes_.size()));
+    }
+    node_quadrics_.resize(nodes_.size());
   }
 
   std::uint32_t place(std::uint32_t vertex) const { return mesh_.position_of[vertex]; }
-
-  void drop_degenerate() {
-    std::erase_if(triangles_, [&](const Corners& t) {
-      const std::uint32_t a = place(t[0]), b = place(t[1]), c = place(t[2]);
-      return a == b || b == c || c == a;
-    });
+  std::uint32_t node_count(std::uint32_t p) const { return first_node_[p + 1] - first_node_[p]; }
+  bool same_texcoord(std::uint32_t a, std::uint32_t b) const {
+    return mesh_.vertices[a].texcoord == mesh_.vertices[b].texcoord;
   }
 
-  // The triangles round every position, in order.
+  void place_triangles() {
+    for (const auto& t : mesh_.triangles) {
+      wedges_.push_back({t[0], t[1], t[2], 0});
+      triangles_.push_back({place(t[0]), place(t[1]), place(t[2]), 0});
+      corner_nodes_.push_back({node_of_[t[0]], node_of_[t[1]], node_of_[t[2]], 0});
+    }
+    drop_degenerate();
+  }
+
+  static bool degenerate(const Corners& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+  void drop_degenerate() {
+    std::size_t n = 0;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (degenerate(triangles_[t])) continue;
+      triangles_[n] = triangles_[t], wedges_[n] = wedges_[t], corner_nodes_[n] = corner_nodes_[t], ++n;
+    }
+    triangles_.resize(n), wedges_.resize(n), corner_nodes_.resize(n);
+  }
+
+  // The corners at every position, in order.
   void build_rings() {
     ring_first_.assign(places_.size() + 1, 0);
     for (const Corners& t : triangles_)
-      for (const std::uint32_t v : t) ++ring_first_[place(v) + 1];
+      for (std::size_t i = 0; i < 3; ++i) ++ring_first_[t[i] + 1];
     for (std::size_t p = 0; p < places_.size(); ++p) ring_first_[p + 1] += ring_first_[p];
     ring_.resize(3 * triangles_.size());
     fill_.assign(ring_first_.begin(), ring_first_.end() - 1);
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      for (const std::uint32_t v : triangles_[t]) ring_[fill_[place(v)]++] = t;
+      for (std::uint32_t i = 0; i < 3; ++i) ring_[fill_[triangles_[t][i]]++] = 4 * t + i;
   }
-
   std::span<const std::uint32_t> ring(std::uint32_t p) const {
     return {ring_.data() + ring_first_[p], ring_.data() + ring_first_[p + 1]};
   }
+  std::uint32_t at(std::uint32_t corner) const { return triangles_[corner >> 2][corner & 3]; }
+  std::uint32_t wedge_at(std::uint32_t corner) const { return wedges_[corner >> 2][corner & 3]; }
+  std::uint32_t node_at(std::uint32_t corner) const { return corner_nodes_[corner >> 2][corner & 3]; }
 
-  // Triangles that run from p to q, and their wedges; `twice`: more than one does.
-  struct Directed {
-    std::uint32_t count = 0, from = k_none, to = k_none;
-  };
-  Directed directed(std::uint32_t p, std::uint32_t q) const {
-    Directed d;
-    for (const std::uint32_t t : ring(p)) {
-      const Corners& c = triangles_[t];
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const std::uint32_t v = moved_[c[i]], w = moved_[c[next_corner(i)]];
-        if (place(v) != p || place(w) != q) continue;
-        ++d.count;
-        d.from = v, d.to = w;
+  // ---- what kind of vertex each is
+
+  // Of every edge from a corner to the next one: the corner where the edge back begins.
+  void find_opposites() {
+    opposite_.assign(4 * triangles_.size(), k_none), broken_.assign(places_.size(), 0);
+    for (std::uint32_t c = 0; c < opposite_.size(); ++c) {
+      if ((c & 3) == 3) continue;
+      const std::uint32_t p = at(c), q = at(next_corner(c));
+      std::uint32_t same = 0, back = 0;
+      for (const std::uint32_t d : ring(p)) same += at(next_corner(d)) == q;
+      for (const std::uint32_t d : ring(q)) {
+        if (at(next_corner(d)) != p) continue;
+        opposite_[c] = d, ++back;
       }
+      if (same > 1 || back > 1) broken_[p] = broken_[q] = 1;
     }
-    return d;
+  }
+  // Whether the edge from this corner to the next one is a seam of the texture.
+  bool seam(std::uint32_t corner) const {
+    const std::uint32_t back = opposite_[corner];
+    return back != k_none &&
+           !(node_at(next_corner(back)) == node_at(corner) && node_at(back) == node_at(next_corner(corner)));
   }
 
   void classify() {
     for (std::uint32_t p = 0; p < places_.size(); ++p) {
       std::uint32_t borders = 0, seams = 0;
-      bool broken = false;
-      for (const std::uint32_t t : ring(p)) {
-        const Corners& c = triangles_[t];
-        for (std::uint32_t i = 0; i < 3; ++i) {
-          if (place(c[i]) != p) continue;
-          const std::uint32_t q = place(c[next_corner(i)]), r = place(c[next_corner(next_corner(i))]);
-          const Directed out = directed(p, q), back = directed(q, p);
-          if (out.count > 1 || back.count > 1) broken = true;
-          if (back.count == 0) ++borders;
-          if (back.count == 1 && !(same_texcoord(back.to, out.from) && same_texcoord(back.from, out.to)))
-            ++seams;
-          if (directed(p, r).count == 0) ++borders;  // the edge from r comes in and none goes out
-        }
+      for (const std::uint32_t c : ring(p)) {
+        borders += opposite_[c] == k_none;
+        borders += opposite_[previous_corner(c)] == k_none;
+        seams += seam(c);
       }
-      kinds_[p] = broken || borders > 2 || borders == 1 || (borders > 0 && seams > 0) ||
-                          (seams != 0 && seams != 2) || !one_fan(p)
-                      ? Kind::fixed
-                  : borders == 2 ? Kind::border
-                  : seams == 2   ? Kind::seam
-                                 : Kind::inner;
+      const bool fixed = broken_[p] != 0 || borders > 2 || borders == 1 || (borders > 0 && seams > 0) ||
+                         (seams != 0 && seams != 2) || !one_fan(p);
+      kinds_[p] = fixed ? Kind::fixed : borders == 2 ? Kind::border : seams == 2 ? Kind::seam : Kind::inner;
     }
   }
 
-  // Whether the triangles round p hang together by edges at p.
-  bool one_fan(std::uint32_t p) {
+  // Whether the triangles round p hang together by edges at p; p is not broken.
+  bool one_fan(std::uint32_t p) const {
     const auto all = ring(p);
-    if (all.size() < 2) return true;
-    std::vector<std::uint8_t> seen(all.size(), 0);
-    std::vector<std::size_t> stack{0};
-    seen[0] = 1;
+    if (all.empty()) return true;
+    const auto open =
+        std::find_if(all.begin(), all.end(), [&](std::uint32_t c) { return opposite_[c] == k_none; });
+    const std::uint32_t start = open == all.end() ? all.front() : *open;
     std::size_t reached = 1;
-    const auto others = [&](std::uint32_t t) {
-      std::array<std::uint32_t, 2> out{};
-      std::size_t n = 0;
-      for (const std::uint32_t v : triangles_[t])
-        if (place(v) != p && n < 2) out[n++] = place(v);
-      return out;
-    };
-    if (all.size() > 64) return true;  // a lid's middle
-    while (!stack.empty()) {
-      const auto a = others(all[stack.back()]);
-      stack.pop_back();
-      for (std::size_t j = 0; j < all.size(); ++j) {
-        if (seen[j]) continue;
-        const auto b = others(all[j]);
-        if (a[0] != b[0] && a[0] != b[1] && a[1] != b[0] && a[1] != b[1]) continue;
-        seen[j] = 1, ++reached;
-        stack.push_back(j);
-      }
-    }
+    for (std::uint32_t c = opposite_[previous_corner(start)];
+         c != k_none && c != start && reached < all.size(); c = opposite_[previous_corner(c)])
+      ++reached;
     return reached == all.size();
   }
 
+  // ---- quadrics
+
   void add_quadrics() {
-    for (const Corners& t : triangles_) {
-      const Float3 a = places_[place(t[0])], b = places_[place(t[1])], c = places_[place(t[2])];
-      const Double3 e0 = to_double(b) - to_double(a), e1 = to_double(c) - to_double(a), n = cross(e0, e1);
+    for (std::uint32_t first = 0; first < opposite_.size(); first += 4) {
+      const Corners& t = triangles_[first >> 2];
+      const Float3 a = places_[t[0]];
+      const Double3 e0 = to_double(places_[t[1]]) - to_double(a),
+                    e1 = to_double(places_[t[2]]) - to_double(a), n = cross(e0, e1);
       const double twice = length(n);
       if (!(twice > 0)) continue;
       const Float3 unit = to_float(n / twice);
       const auto area = static_cast<float>(0.5 * twice);
       PlaneQuadric q;
       q.add_plane(unit, -dot(unit, a), area);
-      for (const std::uint32_t v : t) quadrics_[place(v)] += q;
-      add_gradients(t, a, e0, e1, n / (twice * twice), area);
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const std::uint32_t p = place(t[i]), r = place(t[next_corner(i)]);
-        const Directed back = directed(r, p);
-        const bool border = back.count == 0,
-                   seam = back.count == 1 &&
-                          !(same_texcoord(back.to, t[i]) && same_texcoord(back.from, t[next_corner(i)]));
-        if (!border && !seam) continue;
-        const Double3 along = to_double(places_[r]) - to_double(places_[p]);
-        const double l = length(along);
-        if (!(l > 0)) continue;
-        const Float3 across = to_float(normalized(cross(along, n), {0, 0, 0}));
-        PlaneQuadric plane;
-        plane.add_plane(across, -dot(across, places_[p]),
-                        static_cast<float>(l * l) * (border ? k_border_weight : 1.0f));
-        plane.weight = 0;
-        quadrics_[p] += plane, quadrics_[r] += plane;
-      }
+      for (std::size_t i = 0; i < 3; ++i) quadrics_[t[i]] += q;
+      add_gradients(first, a, e0, e1, n / (twice * twice), area);
+      for (std::uint32_t c = first; c < first + 3; ++c)
+        if (opposite_[c] == k_none || seam(c)) add_fence(c, n);
     }
   }
 
+  // The plane across a border or a seam.
+  void add_fence(std::uint32_t corner, const Double3& face) {
+    const std::uint32_t p = at(corner), r = at(next_corner(corner));
+    const Double3 along = to_double(places_[r]) - to_double(places_[p]);
+    const double l = length(along);
+    if (!(l > 0)) return;
+    const Float3 across = to_float(normalized(cross(along, face), {0, 0, 0}));
+    PlaneQuadric plane;
+    plane.add_plane(across, -dot(across, places_[p]),
+                    static_cast<float>(l * l) * (opposite_[corner] == k_none ? k_border_weight : 1.0f));
+    plane.weight = 0;
+    quadrics_[p] += plane, quadrics_[r] += plane;
+  }
+
   // The gradient of every attribute over a face: a = g . p + d.
-  void add_gradients(const Corners& t, const Float3& origin, const Double3& e0, const Double3& e1,
+  void add_gradients(std::uint32_t first, const Float3& origin, const Double3& e0, const Double3& e1,
                      const Double3& n, float area) {
+    const std::uint32_t at[3] = {node_at(first), node_at(first + 1), node_at(first + 2)};
     AttributeQuadric q;
     const Double3 g0 = cross(e1, n), g1 = cross(n, e0);
     for (std::size_t k = 0; k < k_attributes; ++k) {
-      const double a0 = attributes_[t[0]][k], d1 = attributes_[t[1]][k] - a0, d2 = attributes_[t[2]][k] - a0;
+      const double a0 = nodes_[at[0]].attributes[k], d1 = nodes_[at[1]].attributes[k] - a0,
+                   d2 = nodes_[at[2]].attributes[k] - a0;
       const Double3 g = g0 * d1 + g1 * d2;
       q.add_gradient(k, to_float(g), static_cast<float>(a0 - dot(g, to_double(origin))), area);
     }
     q.weight = area;
-    for (const std::uint32_t v : t) attribute_quadrics_[v] += q;
+    for (const std::uint32_t v : at) node_quadrics_[v] += q;
   }
 
-  bool same_texcoord(std::uint32_t a, std::uint32_t b) const {
-    return mesh_.vertices[a].texcoord == mesh_.vertices[b].texcoord;
+  // ---- what collapses where
+
+  // Calls offer(q, cost) for every q onto which p may collapse.
+  template <class Offer>
+  void choices(std::uint32_t p, Offer offer) {
+    const PlaneQuadric& planes = quadrics_[p];
+    const float most = planes.weight > 0 ? planes.weight * limit_ : std::numeric_limits<float>::infinity();
+    const std::uint32_t node = first_node_[p];
+    const auto weigh = [&](std::uint32_t corner) {
+      const Node& to = nodes_[node_at(corner)];
+      const float base = planes.at(to.place);
+      if (!(base <= most)) return;
+      const float cost = base + node_quadrics_[node].at(to.place, to.attributes);
+      if (std::isfinite(cost)) offer(at(corner), cost);
+    };
+    if (kinds_[p] == Kind::inner && node_count(p) == 1) {
+      for (const std::uint32_t c : ring(p)) {
+        weigh(next_corner(c));
+      }
+    } else if (kinds_[p] == Kind::border && node_count(p) == 1) {
+      for (const std::uint32_t c : ring(p)) {
+        for (const std::uint32_t d : {next_corner(c), previous_corner(c)}) {
+          if (shared_faces(p, at(d)) == 1) weigh(d);
+        }
+      }
+    } else if (kinds_[p] == Kind::seam || kinds_[p] == Kind::inner || kinds_[p] == Kind::border) {
+      seam_choices(p, most, offer);
+    }
+  }
+  std::uint32_t shared_faces(std::uint32_t p, std::uint32_t q) const {
+    std::uint32_t faces = 0;
+    for (const std::uint32_t c : ring(p)) faces += at(next_corner(c)) == q || at(previous_corner(c)) == q;
+    return faces;
+  }
+
+  // All nodes of p go, each along an edge of its own triangles.
+  template <class Offer>
+  void seam_choices(std::uint32_t p, float most, Offer offer) {
+    for (const std::uint32_t c : ring(p)) {
+      const std::uint32_t q = at(next_corner(c));
+      if (kinds_[q] != Kind::seam && kinds_[q] != Kind::fixed) continue;
+      float cost = quadrics_[p].at(places_[q]);
+      if (!(cost <= most)) continue;
+      std::uint32_t mapped = 0;
+      bool sound = true;
+      for (std::uint32_t n = first_node_[p]; n < first_node_[p + 1] && sound; ++n) {
+        const std::uint32_t to = node_along(p, q, n, sound);
+        if (to == k_none) continue;
+        cost += node_quadrics_[n].at(places_[q], nodes_[to].attributes);
+        ++mapped;
+      }
+      if (sound && mapped == used_nodes(p) && std::isfinite(cost)) offer(q, cost);
+    }
+  }
+  // The node of q that the triangles with an edge from node n of p to q have; not sound: two of them.
+  std::uint32_t node_along(std::uint32_t p, std::uint32_t q, std::uint32_t n, bool& sound) const {
+    std::uint32_t to = k_none;
+    for (const std::uint32_t c : ring(p)) {
+      if (node_at(c) != n) continue;
+      for (const std::uint32_t d : {next_corner(c), previous_corner(c)}) {
+        if (at(d) != q) continue;
+        if (to != k_none && to != node_at(d)) sound = false;
+        to = node_at(d);
+      }
+    }
+    return to;
+  }
+  std::uint32_t used_nodes(std::uint32_t p) const {
+    std::uint32_t used = 0;
+    for (std::uint32_t n = first_node_[p]; n < first_node_[p + 1]; ++n)
+      used += std::any_of(ring(p).begin(), ring(p).end(), [&](std::uint32_t c) { return node_at(c) == n; });
+    return used;
+  }
+
+  Candidate cheapest(std::uint32_t p) {
+    Candidate best{k_none, k_none, 0};
+    choices(p, [&](std::uint32_t q, float cost) {
+      if (best.thrown == k_none || cost < best.cost || (cost == best.cost && q < best.kept))
+        best = {p, q, cost};
+    });
+    return best;
+  }
+
+  // The best way of every vertex that is left. What nothing has changed round since it was looked at still
+  // has its last one, or none that is allowed.
+  void collect() {
+    candidates_.clear();
+    for (std::uint32_t p = 0; p < places_.size(); ++p) {
+      if (kinds_[p] == Kind::fixed || ring(p).empty()) continue;
+      if (stale_[p]) best_[p] = cheapest(p), stale_[p] = refused_[p] = 0;
+      if (best_[p].thrown != k_none) candidates_.push_back(best_[p]);
+    }
+    sort_candidates();
+  }
+
+  // By cost, in steps of a half: what costs about the same goes in the order of the mesh. Costs are not
+  // negative, so their bits sort as they do.
+  void sort_candidates() {
+    constexpr std::uint32_t k_shift = 22, k_size = 1u << (32 - k_shift);
+    const auto key = [](const Candidate& c) { return std::bit_cast<std::uint32_t>(c.cost) >> k_shift; };
+    std::array<std::uint32_t, k_size + 1> first{};
+    for (const Candidate& c : candidates_) ++first[key(c) + 1];
+    for (std::uint32_t i = 0; i < k_size; ++i) first[i + 1] += first[i];
+    scratch_.resize(candidates_.size());
+    for (const Candidate& c : candidates_) scratch_[first[key(c)]++] = c;
+    candidates_.swap(scratch_);
+  }
+
+  std::size_t pass(double share) {
+    ++pass_;
+    const auto goal = static_cast<std::size_t>(share * static_cast<double>(candidates_.size()));
+    const float limit = goal + 1 >= candidates_.size() ? std::numeric_limits<float>::infinity()
+                                                       : candidates_[goal].cost * k_pass_slack;
+    std::uint64_t left = triangles_.size();
+    std::size_t made = 0;
+    for (const Candidate& c : candidates_) {
+      if (left <= options_.min_triangles) break;
+      if (c.cost > limit || touched(c)) continue;
+      std::uint32_t gone = attempt(c);
+      if (gone == 0) gone = detour(c, limit);
+      left -= gone;
+      made += gone > 0;
+    }
+    return made;
+  }
+  bool touched(const Candidate& c) const { return touched_[c.thrown] == pass_ || touched_[c.kept] == pass_; }
+
+  // Makes a collapse if it is allowed. How many triangles go: 0 when it is refused.
+  std::uint32_t attempt(const Candidate& c) {
+    std::uint32_t gone = 0;
+    if (!allowed(c.thrown, c.kept, gone) || !map_wedges(c.thrown, c.kept)) return 0;
+    apply(c);
+    return gone;
+  }
+
+  // The further ways of a vertex whose best one is refused, the cheapest first.
+  std::uint32_t detour(const Candidate& refused, float limit) {
+    const std::uint32_t p = refused.thrown;
+    ways_.clear();
+    choices(p, [&](std::uint32_t q, float cost) { ways_.push_back({p, q, cost}); });
+    const auto before = [](const Candidate& a, const Candidate& b) {
+      return a.cost != b.cost ? a.cost < b.cost : a.kept < b.kept;
+    };
+    std::sort(ways_.begin(), ways_.end(), before);
+    best_[p] = {}, refused_[p] = 1;
+    for (const Candidate& c : ways_) {
+      if (!before(refused, c)) continue;
+      if (c.cost > limit || touched(c)) {
+        best_[p] = c;
+        return 0;
+      }
+      if (const std::uint32_t gone = attempt(c); gone > 0) return gone;
+    }
+    return 0;
+  }
+
+  // Link condition, folds and faces that would be there twice. Neither end has been touched in this pass, so
+  // their rings are complete.
+  bool allowed(std::uint32_t p, std::uint32_t q, std::uint32_t& gone) {
+    gone = 0;
+    for (const std::uint32_t c : ring(p)) {
+      const std::uint32_t x = at(next_corner(c)), y = at(previous_corner(c));
+      if (x == y || x == p || y == p) continue;
+      if (x == q || y == q) {
+        ++gone;
+      } else if (folds(p, x, y, q)) {
+        return false;
+      }
+    }
+    return gone > 0 && gone <= 2 && shared_neighbours(p, q) == gone && (gone < 2 || !makes_twice(p, q));
+  }
+  std::uint32_t shared_neighbours(std::uint32_t p, std::uint32_t q) {
+    const std::uint32_t mark = ++mark_;
+    for (const std::uint32_t c : ring(q)) stamp_[at(next_corner(c))] = stamp_[at(previous_corner(c))] = mark;
+    const std::uint32_t seen = ++mark_;
+    std::uint32_t shared = 0;
+    for (const std::uint32_t c : ring(p)) {
+      for (const std::uint32_t z : {at(next_corner(c)), at(previous_corner(c))}) {
+        if (z == q || z == p || stamp_[z] == seen) continue;
+        shared += stamp_[z] == mark;
+        stamp_[z] = seen;
+      }
+    }
+    return shared;
+  }
+
+  // Whether the triangle p x y turns over when p goes to q.
+  bool folds(std::uint32_t p, std::uint32_t x, std::uint32_t y, std::uint32_t q) const {
+    const Float3 a = places_[p], b = places_[x], c = places_[y], to = places_[q];
+    const Float3 n = cross(b - a, c - a), m = cross(b - to, c - to);
+    const float product = dot(n, m), squares = dot(n, n) * dot(m, m);
+    const auto limit = static_cast<float>(options_.fold_cosine);
+    return product <= 0 ? dot(n, n) > 0 : product * product < limit * limit * squares;
+  }
+
+  // The faces of p whose other corners are neighbours of q: the two that the link condition lets through.
+  bool makes_twice(std::uint32_t p, std::uint32_t q) const {
+    std::uint32_t apex[2] = {k_none, k_none}, n = 0;
+    for (const std::uint32_t c : ring(p)) {
+      const std::uint32_t x = at(next_corner(c)), y = at(previous_corner(c));
+      if (x == y || n == 2 || (x != q && y != q)) continue;
+      apex[n++] = x == q ? y : x;
+    }
+    const auto has_face = [&](std::uint32_t v) {
+      return std::any_of(ring(v).begin(), ring(v).end(), [&](std::uint32_t c) {
+        const std::uint32_t x = at(next_corner(c)), y = at(previous_corner(c));
+        return (x == apex[0] && y == apex[1]) || (x == apex[1] && y == apex[0]);
+      });
+    };
+    return has_face(p) && has_face(q);
   }
 
   // Where each wedge of p goes when p collapses onto q: along an edge of their triangles. A wedge that has no
@@ -245,25 +495,21 @@ class Collapser {
       return true;
     }
     loose_.clear();
-    for (const std::uint32_t t : ring(p)) {
-      std::uint32_t at_p = k_none, at_q = k_none;
-      for (const std::uint32_t c : triangles_[t]) {
-        const std::uint32_t v = moved_[c];
-        if (place(v) == p) at_p = v;
-        if (place(v) == q) at_q = v;
+    for (const std::uint32_t c : ring(p)) {
+      const std::uint32_t own = wedge_at(c);
+      bool along = false;
+      for (const std::uint32_t d : {next_corner(c), previous_corner(c)}) {
+        if (at(d) != q) continue;
+        along = true;
+        const auto same =
+            std::find_if(map_.begin(), map_.end(), [&](const CollapsedWedge& m) { return m.thrown == own; });
+        if (same == map_.end()) {
+          map_.push_back({own, wedge_at(d)});
+        } else if (node_of_[same->kept] != node_at(d)) {
+          return false;
+        }
       }
-      if (at_p == k_none) continue;
-      if (at_q == k_none) {
-        loose_.push_back(at_p);
-        continue;
-      }
-      const auto same =
-          std::find_if(map_.begin(), map_.end(), [&](const CollapsedWedge& m) { return m.thrown == at_p; });
-      if (same == map_.end()) {
-        map_.push_back({at_p, at_q});
-      } else if (!same_texcoord(same->kept, at_q)) {
-        return false;
-      }
+      if (!along) loose_.push_back(own);
     }
     const std::size_t along = map_.size();
     for (const std::uint32_t v : loose_) {
@@ -280,9 +526,9 @@ class Collapser {
     std::uint32_t best = k_none;
     float nearest = -2;
     for (std::size_t i = 0; i < along; ++i) {
-      if (!same_texcoord(map_[i].thrown, v)) continue;
+      if (node_of_[map_[i].thrown] != node_of_[v]) continue;
       for (std::uint32_t w = wedge_[q]; w != k_none; w = next_wedge_[w]) {
-        if (!same_texcoord(w, map_[i].kept)) continue;
+        if (node_of_[w] != node_of_[map_[i].kept]) continue;
         const float alike = dot(mesh_.vertices[w].normal, mesh_.vertices[v].normal);
         if (alike > nearest) nearest = alike, best = w;
       }
@@ -290,150 +536,27 @@ class Collapser {
     return best;
   }
 
-  float cost(std::uint32_t p, std::uint32_t q) const {
-    float value = quadrics_[p].at(places_[q]);
-    for (const CollapsedWedge& m : map_)
-      value += attribute_quadrics_[m.thrown].at(places_[q], attributes_[m.kept]);
-    return value;
-  }
-
-  bool may_go(std::uint32_t p, std::uint32_t q, bool on_border) const {
-    switch (kinds_[p]) {
-      case Kind::inner:
-        return true;
-      case Kind::border:
-        return on_border;
-      case Kind::seam:
-        return kinds_[q] == Kind::seam || kinds_[q] == Kind::fixed;
-      case Kind::fixed:
-        break;
-    }
-    return false;
-  }
-
-  void collect() {
-    candidates_.clear();
-    const auto offer = [&](std::uint32_t p, std::uint32_t q, bool border, Candidate& best) {
-      if (!may_go(p, q, border) || !map_wedges(p, q)) return;
-      const float c = cost(p, q);
-      const float weight = quadrics_[p].weight;
-      if (weight > 0 && quadrics_[p].at(places_[q]) > weight * limit_) return;
-      if (std::isfinite(c) && (best.thrown == k_none || c < best.cost)) best = {p, q, c};
-    };
-    for (const Corners& t : triangles_) {
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const std::uint32_t p = place(t[i]), q = place(t[next_corner(i)]);
-        const bool may_be_border = kinds_[p] != Kind::inner && kinds_[q] != Kind::inner;
-        const bool border = may_be_border && directed(q, p).count == 0;
-        if (p > q && !border) continue;
-        Candidate best{k_none, k_none, 0};
-        offer(p, q, border, best);
-        offer(q, p, border, best);
-        if (best.thrown != k_none) candidates_.push_back(best);
-      }
-    }
-    sort_candidates();
-  }
-
-  // By cost, equal ones in their order: costs are not negative, so their bits sort as they do.
-  void sort_candidates() {
-    constexpr std::uint32_t k_bits = 11, k_size = 1u << k_bits;
-    scratch_.resize(candidates_.size());
-    for (std::uint32_t shift = 0; shift < 33; shift += k_bits) {
-      std::array<std::uint32_t, k_size + 1> count{};
-      const auto key = [&](const Candidate& c) {
-        return (std::bit_cast<std::uint32_t>(c.cost) >> shift) & (k_size - 1);
-      };
-      for (const Candidate& c : candidates_) ++count[key(c) + 1];
-      for (std::uint32_t i = 0; i < k_size; ++i) count[i + 1] += count[i];
-      for (const Candidate& c : candidates_) scratch_[count[key(c)]++] = c;
-      candidates_.swap(scratch_);
-    }
-  }
-
-  std::size_t pass(bool all) {
-    ++pass_;
-    const std::size_t goal =
-        std::min(candidates_.size() - 1,
-                 static_cast<std::size_t>(k_pass_share * static_cast<double>(candidates_.size())));
-    const float limit = all ? std::numeric_limits<float>::infinity() : candidates_[goal].cost * k_pass_slack;
-    std::uint64_t left = triangles_.size();
-    std::size_t made = 0;
-    for (const Candidate& c : candidates_) {
-      if (c.cost > limit || left <= options_.min_triangles) break;
-      if (touched_[c.thrown] == pass_ || touched_[c.kept] == pass_) continue;
-      std::uint32_t gone = 0;
-      if (!allowed(c.thrown, c.kept, gone) || !map_wedges(c.thrown, c.kept)) continue;
-      apply(c);
-      left -= gone;
-      ++made;
-    }
-    for (Corners& t : triangles_)
-      for (std::uint32_t& v : t) v = moved_[v];
-    return made;
-  }
-
-  // Link condition, folds and faces that would be there twice. Neither end has been touched in this pass, so
-  // their rings are complete, through moved_.
-  bool allowed(std::uint32_t p, std::uint32_t q, std::uint32_t& gone) {
-    const std::uint32_t mark = ++mark_;
-    for (const std::uint32_t t : ring(q)) {
-      for (const std::uint32_t c : triangles_[t]) stamp_[place(moved_[c])] = mark;
-    }
-    const std::uint32_t seen = ++mark_;
-    std::uint32_t shared = 0;
-    gone = 0;
-    for (const std::uint32_t t : ring(p)) {
-      const Corners c{moved_[triangles_[t][0]], moved_[triangles_[t][1]], moved_[triangles_[t][2]]};
-      const Corners at{place(c[0]), place(c[1]), place(c[2])};
-      if (at[0] == at[1] || at[1] == at[2] || at[2] == at[0]) continue;
-      const bool has_q = at[0] == q || at[1] == q || at[2] == q;
-      gone += has_q;
-      for (const std::uint32_t x : at) {
-        if (x == p || x == q || stamp_[x] == seen) continue;
-        shared += stamp_[x] == mark;
-        stamp_[x] = seen;
-      }
-      if (!has_q && folds(at, p, q)) return false;
-    }
-    return gone > 0 && gone <= 2 && shared == gone && !makes_twice(p, q);
-  }
-
-  bool folds(const Corners& at, std::uint32_t p, std::uint32_t q) const {
-    Float3 before[3], after[3];
-    for (std::size_t i = 0; i < 3; ++i)
-      before[i] = places_[at[i]], after[i] = at[i] == p ? places_[q] : before[i];
-    const Float3 n = cross(before[1] - before[0], before[2] - before[0]),
-                 m = cross(after[1] - after[0], after[2] - after[0]);
-    const float product = dot(n, m), squares = dot(n, n) * dot(m, m);
-    const auto limit = static_cast<float>(options_.fold_cosine);
-    return product <= 0 ? dot(n, n) > 0 : product * product < limit * limit * squares;
-  }
-
-  bool makes_twice(std::uint32_t p, std::uint32_t q) const {
-    for (const std::uint32_t t : ring(p)) {
-      const Corners at{place(moved_[triangles_[t][0]]), place(moved_[triangles_[t][1]]),
-                       place(moved_[triangles_[t][2]])};
-      if (at[0] == q || at[1] == q || at[2] == q) continue;
-      for (const std::uint32_t u : ring(q)) {
-        std::uint32_t same = 0;
-        bool has_p = false;
-        for (const std::uint32_t c : triangles_[u]) {
-          const std::uint32_t x = place(moved_[c]);
-          has_p = has_p || x == p;
-          for (const std::uint32_t y : at) same += y != p && y == x;
-        }
-        if (same == 2 && !has_p) return true;
-      }
-    }
-    return false;
-  }
-
   void apply(const Candidate& c) {
-    for (const CollapsedWedge& m : map_) {
-      moved_[m.thrown] = m.kept;
-      attribute_quadrics_[m.kept] += attribute_quadrics_[m.thrown];
-      out_.wedges.push_back(m);
+    for (std::size_t i = 0; i < map_.size(); ++i) {
+      const std::uint32_t from = node_of_[map_[i].thrown], to = node_of_[map_[i].kept];
+      const bool added = std::any_of(map_.begin(), map_.begin() + static_cast<std::ptrdiff_t>(i),
+                                     [&](const CollapsedWedge& m) { return node_of_[m.thrown] == from; });
+      if (!added) node_quadrics_[to] += node_quadrics_[from];
+      out_.wedges.push_back(map_[i]);
+    }
+    // What lies round the kept one alone goes where it did for what it did, but what was refused may be
+    // allowed.
+    for (const std::uint32_t corner : ring(c.kept))
+      for (const std::uint32_t d : {next_corner(corner), previous_corner(corner)})
+        stale_[at(d)] |= refused_[at(d)];
+    for (const std::uint32_t corner : ring(c.thrown)) {
+      stale_[at(next_corner(corner))] = stale_[at(previous_corner(corner))] = 1;
+      triangles_[corner >> 2][corner & 3] = c.kept;
+      std::uint32_t& own = wedges_[corner >> 2][corner & 3];
+      own = std::find_if(map_.begin(), map_.end(), [&](const CollapsedWedge& m) {
+              return m.thrown == own;
+            })->kept;
+      corner_nodes_[corner >> 2][corner & 3] = node_of_[own];
     }
     const PlaneQuadric& q = quadrics_[c.thrown];
     const double mean = q.weight > 0 ? q.at(places_[c.kept]) / q.weight : 0;
@@ -447,17 +570,22 @@ class Collapser {
   const EdgeCollapseOptions& options_;
   double size_ = 1;
   float limit_ = static_cast<float>(options_.max_error * options_.max_error);
-  std::vector<Corners> triangles_;
+  std::vector<Corners> triangles_, wedges_, corner_nodes_;  // of what is left: positions, wedges, nodes
   std::vector<Float3> places_;
-  std::vector<std::uint32_t> wedge_, next_wedge_;
-  std::vector<Attributes> attributes_;
-  std::vector<PlaneQuadric> quadrics_;
-  std::vector<AttributeQuadric> attribute_quadrics_;
+  std::vector<std::uint32_t> wedge_, next_wedge_;  // of each position a chain
+  std::vector<std::uint32_t> node_of_;             // of each wedge
+  std::vector<std::uint32_t> first_node_;          // of each position, and the end
+  std::vector<Node> nodes_;
+  std::vector<PlaneQuadric> quadrics_;  // of positions
+  std::vector<AttributeQuadric> node_quadrics_;
   std::vector<Kind> kinds_;
-  std::vector<std::uint32_t> ring_first_, ring_, fill_, moved_, stamp_, touched_;
+  std::vector<std::uint8_t> broken_, stale_, refused_;
+  std::vector<Candidate> best_;  // of each position
+  std::vector<std::uint32_t> opposite_;
+  std::vector<std::uint32_t> ring_first_, ring_, fill_, stamp_, touched_;
   std::vector<CollapsedWedge> map_;
   std::vector<std::uint32_t> loose_;
-  std::vector<Candidate> candidates_, scratch_;
+  std::vector<Candidate> candidates_, scratch_, ways_;
   std::uint32_t mark_ = 0, pass_ = 0;
   EdgeCollapses out_;
 };
@@ -467,74 +595,6 @@ class Collapser {
 EdgeCollapses collapse_edges(const PartTriangles& mesh, const EdgeCollapseOptions& options) {
   if (mesh.triangles.empty()) return {};
   return Collapser(mesh, options).run();
-}
-
-CollapsedState collapsed_state(const PartTriangles& mesh, const EdgeCollapses& collapses, std::size_t count) {
-  std::vector<std::uint32_t> moved(mesh.vertices.size());
-  for (std::uint32_t v = 0; v < moved.size(); ++v) moved[v] = v;
-  // Backwards: when a vertex is thrown, where its keeper ends is known already.
-  for (std::size_t i = collapses.first[count]; i-- > 0;)
-    moved[collapses.wedges[i].thrown] = moved[collapses.wedges[i].kept];
-  CollapsedState state;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Corners& c = mesh.triangles[t];
-    const Corners now{moved[c[0]], moved[c[1]], moved[c[2]]};
-    const std::uint32_t a = mesh.position_of[now[0]], b = mesh.position_of[now[1]],
-                        d = mesh.position_of[now[2]];
-    if (a == b || b == d || d == a) continue;
-    state.triangles.push_back(now);
-    state.source.push_back(t);
-  }
-  return state;
-}
-
-Spectrum edge_spectrum(const PartTriangles& mesh, const EdgeCollapses& collapses,
-                       std::span<const std::uint32_t> radius_of) {
-  SpectrumBuilder builder(LodMethod::edges);
-  for (const SpectrumVertex& v : mesh.vertices) builder.vertex(v);
-  std::vector<Corners> now = mesh.triangles;
-  std::vector<std::uint32_t> element(now.size());
-  // The triangles of every vertex, as chains through corners; a collapse hangs one chain behind another.
-  std::vector<std::uint32_t> head(mesh.vertices.size(), k_none), tail(mesh.vertices.size(), k_none),
-      next(3 * now.size(), k_none);
-  const auto radius = [&](std::uint32_t t) { return radius_of.empty() ? k_none : radius_of[t]; };
-  const auto degenerate = [&](const Corners& t) {
-    const std::uint32_t a = mesh.position_of[t[0]], b = mesh.position_of[t[1]], c = mesh.position_of[t[2]];
-    return a == b || b == c || c == a;
-  };
-  for (std::uint32_t t = 0; t < now.size(); ++t) {
-    element[t] = builder.element(mesh.materials[t], radius(t), std::span(&now[t], 1));
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      const std::uint32_t v = now[t][c], at = 3 * t + c;
-      (head[v] == k_none ? head[v] : next[tail[v]]) = at;
-      tail[v] = at;
-    }
-  }
-  double error = 0;
-  for (std::size_t i = 0; i < collapses.size(); ++i) {
-    error = std::max(error, static_cast<double>(collapses.errors[i]));
-    builder.step(error);
-    if (i == 0) {
-      for (std::uint32_t t = 0; t < now.size(); ++t)
-        if (degenerate(now[t])) builder.remove(element[t]), element[t] = k_none;
-    }
-    for (std::uint32_t w = collapses.first[i]; w < collapses.first[i + 1]; ++w) {
-      const auto [thrown, kept] = collapses.wedges[w];
-      for (std::uint32_t at = head[thrown]; at != k_none; at = next[at]) {
-        const std::uint32_t t = at / 3;
-        now[t][at % 3] = kept;
-        if (element[t] == k_none) continue;
-        builder.remove(element[t]);
-        element[t] = degenerate(now[t])
-                         ? k_none
-                         : builder.element(mesh.materials[t], radius(t), std::span(&now[t], 1));
-      }
-      if (head[thrown] == k_none) continue;
-      (head[kept] == k_none ? head[kept] : next[tail[kept]]) = head[thrown];
-      tail[kept] = tail[thrown];
-    }
-  }
-  return builder.finish();
 }
 
 }  // namespace copse

@@ -4,10 +4,8 @@
 #pragma once
 
 #include "lib/formats/part_triangles.h"
-#include "lib/formats/spectrum.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace copse {
@@ -42,17 +40,5 @@ struct EdgeCollapses {
 // independent collapses: O(n log n) in all. Sources: Garland and Heckbert 1997; Hoppe 1999 (attributes);
 // digest 003 section 6.9 (guards).
 EdgeCollapses collapse_edges(const PartTriangles& mesh, const EdgeCollapseOptions& options = {});
-
-// The spectrum of the collapses: an element a triangle and a form that it takes. `radius_of`: of every
-// triangle, or empty.
-Spectrum edge_spectrum(const PartTriangles& mesh, const EdgeCollapses& collapses,
-                       std::span<const std::uint32_t> radius_of);
-
-// The triangles that are left after the first `count` collapses, with the triangle of the mesh that each was.
-struct CollapsedState {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> source;
-};
-CollapsedState collapsed_state(const PartTriangles& mesh, const EdgeCollapses& collapses, std::size_t count);
 
 }  // namespace copse
