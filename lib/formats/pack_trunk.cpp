@@ -475,6 +475,67 @@ bool looks_flat(const Tree& tree) {
   return n > 0 && apart < 0.004 * static_cast<double>(n);  // 5 degrees, rms
 }
 
+// A walk over the triangles of a segment from neighbour to neighbour, each turned so that the edge to the one
+// before comes first: then only where it goes on and its third corner are news.
+class SegmentWalk {
+ public:
+  explicit SegmentWalk(std::vector<CornerTriangle> triangles)
+      : triangles_(std::move(triangles)), taken_(triangles_.size(), 0) {
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+      for (std::size_t c = 0; c < 3; ++c) edges_[edge(t, c)].push_back(t);
+  }
+
+  // The triangles in their new order, with their old places; which of three corners is the first one now.
+  struct Step {
+    std::uint32_t triangle = 0;
+    std::size_t first = 0;
+  };
+  std::vector<Step> steps() {
+    std::vector<Step> out, branches;
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      if (taken_[t]) continue;
+      for (Step now{t, 0};;) {
+        taken_[now.triangle] = 1;
+        out.push_back(now);
+        branches.push_back(now);
+        bool found = false;
+        while (!found && !branches.empty()) {
+          found = next_of(branches.back(), now);
+          if (!found) branches.pop_back();
+        }
+        if (!found) break;
+      }
+    }
+    return out;
+  }
+
+ private:
+  using Edge = std::array<std::uint32_t, 2>;
+  Edge edge(std::uint32_t t, std::size_t c) const {
+    return {triangles_[t].vertex[c % 3], triangles_[t].vertex[(c + 1) % 3]};
+  }
+  // The neighbour across the last edge, or across the one before.
+  bool next_of(const Step& at, Step& next) {
+    for (const std::size_t side : {2u, 1u, 0u}) {
+      const Edge e = edge(at.triangle, at.first + side);
+      const auto found = edges_.find({e[1], e[0]});
+      if (found == edges_.end()) continue;
+      for (const std::uint32_t t : found->second) {
+        if (taken_[t]) continue;
+        next.triangle = t;
+        for (std::size_t c = 0; c < 3; ++c)
+          if (edge(t, c) == Edge{e[1], e[0]}) next.first = c;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::vector<CornerTriangle> triangles_;
+  std::vector<std::uint8_t> taken_;
+  std::map<Edge, std::vector<std::uint32_t>> edges_;
+};
+
 }  // namespace
 
 double PackGrid::step() const {
@@ -513,11 +574,17 @@ PackedTrunk plan_trunk(const Tree& tree, const PackGrid& grid) {
     const std::uint32_t s = segment_of[line[1]];
     const std::size_t first = tree.first_triangle_of_segment(s), end = tree.first_triangle_of_segment(s + 1);
     out.counts.push_back(static_cast<std::uint32_t>(end - first));
-    for (std::size_t t = first; t < end; ++t) {
-      const CornerTriangle& corners = tree.trunk.triangles[t];
-      out.triangles.push_back(corners.vertex);
+    SegmentWalk walk({tree.trunk.triangles.begin() + static_cast<std::ptrdiff_t>(first),
+                      tree.trunk.triangles.begin() + static_cast<std::ptrdiff_t>(end)});
+    for (const SegmentWalk::Step& step_on : walk.steps()) {
+      const std::size_t t = first + step_on.triangle;
+      auto& corners = out.triangles.emplace_back();
       auto& wedges = out.wedges.emplace_back();
-      for (std::size_t c = 0; c < 3; ++c) wedges[c] = wedge_of(tree.trunk, corners, c, grid);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t from = (step_on.first + c) % 3;
+        corners[c] = tree.trunk.triangles[t].vertex[from];
+        wedges[c] = wedge_of(tree.trunk, tree.trunk.triangles[t], from, grid);
+      }
       out.materials.push_back((tree.trunk.materials.empty() ? tree.trunk.material : tree.trunk.materials[t]) +
                               1);
     }

@@ -24,7 +24,9 @@ using Face = std::array<std::uint32_t, 3>;
 
 constexpr std::uint32_t k_most_up = 512;  // radii between the ends of a tube that are looked at
 constexpr std::size_t k_most_recent = 128, k_most_faces = 4096;
-constexpr int k_dropped = 13;  // bits of an error
+constexpr int k_normal_slack = 4;    // of 127: a normal of a made tube may be off by as many, some 3 degrees
+constexpr int k_texcoord_slack = 2;  // bits that texture coordinates of made tubes have less
+constexpr int k_dropped = 13;        // bits of an error
 
 // How a made element's triangles hang together, by first use of vertices, and at which end each vertex is.
 struct Pattern {
@@ -32,7 +34,7 @@ struct Pattern {
   std::vector<std::uint8_t> at_child;
 
   // For each vertex, its place in the list of its end; for one at the child's end, the vertex at the other
-  // end that it hangs on by an edge, the last of them.
+  // end that it hangs on by an edge, the first of them.
   std::vector<std::uint32_t> place, partner;
   void link() {
     std::uint32_t count[2] = {0, 0};
@@ -42,7 +44,7 @@ struct Pattern {
       for (std::size_t c = 0; c < 3; ++c)
         for (const std::size_t d : {(c + 1) % 3, (c + 2) % 3})
           if (at_child[f[c]] && !at_child[f[d]] &&
-              (partner[f[c]] == k_none || place[partner[f[c]]] < place[f[d]]))
+              (partner[f[c]] == k_none || place[partner[f[c]]] > place[f[d]]))
             partner[f[c]] = f[d];
   }
 };
@@ -81,7 +83,16 @@ class Coder {
         parent_(parents(tree)),
         centres_(absolute_centres(tree)),
         step_(std::ldexp(1.0, plan.position)),
-        texcoord_step_(std::ldexp(1.0, plan.texcoord)) {}
+        texcoord_step_(std::ldexp(1.0, plan.texcoord)),
+        goes_on_(parent_.size(), k_none) {
+    for (std::uint32_t r = 0; r < parent_.size(); ++r) {
+      const std::uint32_t p = parent_[r];
+      if (p == k_none || (tree.hierarchy.radii[r].flags & Radius::joint) != 0) continue;
+      if (goes_on_[p] == k_none ||
+          tree.hierarchy.radii[r].diameter > tree.hierarchy.radii[goes_on_[p]].diameter)
+        goes_on_[p] = r;
+    }
+  }
 
   std::string run() {
     if (std::string wrong = code_pieces(); !wrong.empty()) return wrong;
@@ -222,7 +233,7 @@ class Coder {
                      : static_cast<std::uint32_t>(c_.number(material_, m.material + 1u)) - 1;
     if (!code_pattern(m.pattern)) return "the triangles of a tube are not sound";
     m.vertices.assign(m.pattern.at_child.size(), k_none);
-    const Ends ends{{other_end(m), m.radius}, {ring_size(m.pattern, 0), ring_size(m.pattern, 1)}};
+    const Ends ends = ends_of(m);
     const std::vector<std::uint32_t>* known[2] = {nullptr, nullptr};
     for (std::size_t e = 0; e < 2; ++e)
       if (const auto at = rings_.find({ends.radius[e], ends.size[e]}); at != rings_.end())
@@ -247,7 +258,14 @@ class Coder {
       }
       lists[e].push_back(v);
     }
-    for (std::size_t e = 0; e < 2; ++e) rings_[{ends.radius[e], ends.size[e]}] = lists[e];
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (ends.size[e] > 2) {
+        start_[ends.radius[e]] = lists[e].front();
+        const Grid2 &first = places_[lists[e].front()].texcoord, &last = places_[lists[e].back()].texcoord;
+        turn_ = {last[0] - first[0], last[1] - first[1]};
+      }
+      rings_[{ends.radius[e], ends.size[e]}] = std::move(lists[e]);
+    }
     return "";
   }
   static std::size_t ring_size(const Pattern& p, std::uint8_t end) {
@@ -298,7 +316,34 @@ class Coder {
   struct Ends {
     std::uint32_t radius[2];
     std::size_t size[2];
+    Double3 axis[2];  // of the rings
   };
+
+  // A ring lies across the mean of its limb's directions there; a limb's first one across the first
+  // direction.
+  Ends ends_of(const Made& m) const {
+    Ends ends{{other_end(m), m.radius}, {ring_size(m.pattern, 0), ring_size(m.pattern, 1)}, {}};
+    std::uint32_t begin = m.radius;  // the first radius behind the other end
+    for (std::uint32_t k = 1; k < m.up && parent_[begin] != k_none && parent_[parent_[begin]] != k_none; ++k)
+      begin = parent_[begin];
+    const auto from_parent = [&](std::uint32_t r) {
+      return parent_[r] == k_none ? Double3{} : normalized(centres_[r] - centres_[parent_[r]], {});
+    };
+    const Double3 out = from_parent(begin);
+    ends.axis[0] =
+        normalized(goes_on_[ends.radius[0]] == begin ? from_parent(ends.radius[0]) + out : out, out);
+    const Double3 in = from_parent(m.radius);
+    const std::uint32_t next = goes_on_[m.radius];
+    ends.axis[1] = normalized(next == k_none ? in : in + from_parent(next), in);
+    return ends;
+  }
+
+  // Turns `v` as the least rotation from one unit vector to the other does.
+  static Double3 carried(const Double3& v, const Double3& from, const Double3& to) {
+    const Double3 axis = cross(from, to);
+    const double c = dot(from, to);
+    return c < -0.9 ? v : v * c + cross(axis, v) + axis * (dot(axis, v) / (1 + c));
+  }
 
   bool code_vertex(const Made& m, std::size_t i, const Ends& ends, const std::vector<std::uint32_t>& list,
                    std::uint32_t like) {
@@ -313,11 +358,9 @@ class Coder {
       own.rel[a] = expected.rel[a] + c_.signed_number(position_[kind][a], own.rel[a] - expected.rel[a]);
       sound = sound && std::abs(own.rel[a]) <= 16 * k_grid_limit;
     }
-    Octahedral towards = expected.normal;
-    if (kind >= 2) {
-      const Double3 axis = normalized(centres_[ends.radius[1]] - centres_[ends.radius[0]]), r = real(own.rel);
-      towards = to_octahedral(normalized(r - axis * dot(r, axis)));
-    }
+    const Octahedral towards =
+        kind == 0 ? expected.normal : expected_normal(ends, e, list.size(), own, expected, kind);
+    if (!c_.decoding() && near(own.normal, towards)) own.normal = towards;
     for (std::size_t k = 0; k < 2; ++k) {
       own.normal[k] = static_cast<std::int32_t>(std::clamp<std::int64_t>(
           towards[k] + c_.signed_number(normal_[std::min<std::size_t>(kind, 3)], own.normal[k] - towards[k]),
@@ -337,6 +380,23 @@ class Coder {
           std::max(p_.largest_error, distance(to_double(p_.vertices.back().position),
                                               to_double(p_.spectrum->vertices[m.source[i]].position)));
     return sound;
+  }
+
+  // Ribbons turn half to their edges; tubes look away from their axis, thin ones as at their other end.
+  static Octahedral expected_normal(const Ends& ends, std::size_t e, std::size_t j, const Place& own,
+                                    const Place& expected, std::size_t kind) {
+    const Double3 r = real(own.rel), out = normalized(r - ends.axis[e] * dot(r, ends.axis[e]));
+    if (ends.size[e] == 2) {
+      const Double3 face = j == 0 ? cross(ends.axis[e], out) : cross(out, ends.axis[e]);
+      return to_octahedral(normalized(face + out));
+    }
+    if (kind > 1) return to_octahedral(out);
+    return to_octahedral(
+        normalized(carried(to_double(from_octahedral(expected.normal)), ends.axis[0], ends.axis[1])));
+  }
+
+  static bool near(const Octahedral& a, const Octahedral& b) {
+    return std::abs(a[0] - b[0]) <= k_normal_slack && std::abs(a[1] - b[1]) <= k_normal_slack;
   }
 
   Place place_of(const SpectrumVertex& v, const Double3& centre) const {
@@ -359,25 +419,46 @@ class Coder {
       const double a = tree_.hierarchy.radii[ends.radius[0]].diameter,
                    b = tree_.hierarchy.radii[ends.radius[1]].diameter;
       const double by = a > 0 ? std::min(b / a, 4.0) : 1;
-      for (std::int64_t& x : out.rel) x = std::llround(double(x) * by);
+      const Double3 turned = carried(real(out.rel), ends.axis[0], ends.axis[1]) * by;
+      out.rel = {std::llround(turned.x), std::llround(turned.y), std::llround(turned.z)};
       if (j > 0) out.texcoord[1] = places_[list[j - 1]].texcoord[1];
       return kind = 1, out;
     }
-    out.texcoord = last_texcoord_;
-    kind = j == 0 ? 5 : j == 1 ? (sides == 1 ? 3 : 4) : 2;
-    if (j == 0) return out;
+    if (j > 0) return around(ends.axis[e], list, sides, kind);
+    out.texcoord = last_texcoord_, kind = 5;
+    // Rings of one radius begin in the same direction, however many sides they have.
+    if (const auto at = start_.find(ends.radius[e]); sides > 1 && at != start_.end())
+      kind = 6, out = places_[at->second];
+    return out;
+  }
+
+  // The next vertex of a ring: on by an equal angle; texture coordinates as they went, first as in the ring
+  // before.
+  Place around(const Double3& axis, const std::vector<std::uint32_t>& list, std::size_t sides,
+               std::size_t& kind) const {
+    const std::size_t j = list.size();
     const Place& before = places_[list[j - 1]];
-    out.texcoord = before.texcoord;
-    for (std::size_t a = 0; a < 3 && j == 1; ++a)
-      out.rel[a] = sides == 1 ? -before.rel[a] : -before.rel[a] / 2;
-    if (j < 2) return out;
-    const Place& two = places_[list[j - 2]];
+    Place out;
+    if (sides == 1) {
+      for (std::size_t a = 0; a < 3; ++a) out.rel[a] = -before.rel[a];
+      out.texcoord = before.texcoord;
+      return kind = 3, out;
+    }
     const double half = 3.14159265358979312 / static_cast<double>(sides), h2 = half * half;
     const double s = half * (1 - h2 / 6 * (1 - h2 / 20 * (1 - h2 / 42 * (1 - h2 / 72))));
+    const double cosine = 1 - 2 * s * s, sine = 2 * s * std::sqrt(std::max(0.0, 1 - s * s));
+    if (j == 1) {
+      const Double3 r = real(before.rel), on = r * cosine + cross(axis, r) * sine;
+      out.rel = {std::llround(on.x), std::llround(on.y), std::llround(on.z)};
+      for (std::size_t k = 0; k < 2; ++k)
+        out.texcoord[k] = before.texcoord[k] + turn_[k] / static_cast<std::int64_t>(sides);
+      return kind = 4, out;
+    }
+    const Place& two = places_[list[j - 2]];
     for (std::size_t a = 0; a < 3; ++a)
-      out.rel[a] = std::llround(2 * (1 - 2 * s * s) * double(before.rel[a])) - two.rel[a];
+      out.rel[a] = std::llround(2 * cosine * double(before.rel[a])) - two.rel[a];
     for (std::size_t k = 0; k < 2; ++k) out.texcoord[k] = 2 * before.texcoord[k] - two.texcoord[k];
-    return out;
+    return kind = 2, out;
   }
 
   RangeCoder& c_;
@@ -387,6 +468,7 @@ class Coder {
   std::vector<std::uint32_t> parent_;
   std::vector<Double3> centres_;
   double step_, texcoord_step_;
+  std::vector<std::uint32_t> goes_on_;  // of each radius the thickest that is joined to it
 
   std::set<std::uint32_t> alive_;
   std::map<std::uint32_t, std::set<std::uint32_t>> on_radius_;
@@ -395,7 +477,8 @@ class Coder {
   std::map<std::pair<std::uint32_t, std::size_t>, std::vector<std::uint32_t>> rings_;
   std::map<std::uint32_t, std::uint32_t> numbers_;  // encoding: of the plan's vertices that are coded
   std::vector<Place> places_;                       // of those that are coded
-  Grid2 last_texcoord_{};
+  std::map<std::uint32_t, std::uint32_t> start_;    // of each radius, the first vertex of its last ring
+  Grid2 last_texcoord_{}, turn_{};                  // turn_: once round the last ring
   bool again_before_ = false;
 
   std::array<NumberModel, 2> piece_, named_;
@@ -403,9 +486,9 @@ class Coder {
   SignedModel made_radius_, name_;
   BitModel own_radius_, goes_, same_material_, end_, old_;
   std::array<BitModel, 2> again_;
-  std::array<std::array<SignedModel, 3>, 6> position_;
+  std::array<std::array<SignedModel, 3>, 7> position_;
   std::array<SignedModel, 4> normal_;
-  std::array<std::array<SignedModel, 2>, 6> texcoord_;
+  std::array<std::array<SignedModel, 2>, 7> texcoord_;
 };
 
 using Key = std::array<std::uint32_t, 8>;
@@ -548,7 +631,7 @@ std::optional<EncodedSpectrum> encode(const Spectrum& spectrum, const Tree& tree
   for (const SpectrumVertex& v : spectrum.vertices)
     uv = std::max({uv, std::abs(double{v.texcoord.x}), std::abs(double{v.texcoord.y})});
   plan.position = std::clamp(exponent_of(std::max({e.x, e.y, e.z}), options.position_bits - 1), -120, 100);
-  plan.texcoord = exponent_of(std::min(uv, 4.0), options.texcoord_bits);
+  plan.texcoord = exponent_of(std::min(uv, 4.0), options.texcoord_bits - k_texcoord_slack);
   RangeCoder coder;
   if (!std::make_unique<Coder>(coder, plan, tree, part)->run().empty()) return std::nullopt;
   EncodedSpectrum out{.bytes = std::vector<std::uint8_t>(8), .position_error = plan.largest_error};

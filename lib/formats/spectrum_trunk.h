@@ -17,7 +17,8 @@ namespace copse::spectrum_trunk {
 
 // Nothing when full detail is not the tree's, or an element hangs on no radius. Steps, elements, lifetimes,
 // materials, radii and triangles are exact; places are on a grid of twice the step of position_bits beside
-// the ring's centre, normals octahedral, errors rounded up by less than a thousandth.
+// the ring's centre, normals octahedral and within 4 steps of 127, texture coordinates on a grid of two bits
+// less than texcoord_bits, errors rounded up by less than a thousandth.
 std::optional<EncodedSpectrum> encode(const Spectrum& spectrum, const Tree& tree,
                                       const SpectrumCodingOptions& options);
 

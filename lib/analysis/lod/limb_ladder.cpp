@@ -8,7 +8,7 @@
 namespace copse {
 namespace {
 
-constexpr double k_rung_ratio = 0.88;  // of the triangles of the rung before: closer rungs are left out
+constexpr double k_rung_ratio = 0.75;  // of the triangles of the rung before: closer rungs are left out
 constexpr double k_ribbon = 0.45, k_spike = 0.7;  // rms distance from a tube of radius 1
 
 // How far a regular k-gon lies from the circle of its perimeter, rms, as a share of the radius.

@@ -161,13 +161,13 @@ class LimbTubes {
     const auto low = [&](std::uint32_t j) { return numbers_[first_low + j]; };
     const auto high = [&](std::uint32_t j) { return numbers_[first_high + j]; };
     if (sides == 2) {
-      add({low(0), low(1), point ? high(0) : high(1)});
-      if (!point) add({low(0), high(1), high(0)});
+      add({low(0), low(1), high(0)});
+      if (!point) add({low(1), high(1), high(0)});
       return;
     }
     for (std::uint32_t j = 0; j < sides; ++j) {
-      add({low(j), low(j + 1), high(j + 1)});
-      if (!point) add({low(j), high(j + 1), high(j)});
+      add({low(j), low(j + 1), high(j)});
+      if (!point) add({low(j + 1), high(j + 1), high(j)});
     }
     for (std::uint32_t j = 1; last && shape_.capped() && j + 1 < sides; ++j)
       add({high(0), high(j), high(j + 1)});
