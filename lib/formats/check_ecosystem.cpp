@@ -78,31 +78,52 @@ void check_blocks(const Ecosystem& eco, Findings& findings) {
 
 // Every bit of the 24 bytes means something, so little can be wrong: bits above the fields, codes of
 // rotations that are one step too many, materials.
+bool is_sound(const PackedInstance& i, std::uint32_t materials) {
+  const auto is_material = [&](std::uint8_t m) { return m == k_own_material || m < materials; };
+  return !(i.position >> 63) && is_packed_rotation(i.rotation) && is_material(i.trunk_material) &&
+         is_material(i.leaf_material);
+}
+
+bool is_rotation(const std::array<float, 4>& rotation) {
+  double square = 0;
+  for (const float r : rotation) square += static_cast<double>(r) * static_cast<double>(r);
+  return std::abs(square - 1) < 1e-5;
+}
+
+bool has_materials(const ExactInstance& e, std::uint32_t materials) {
+  const auto is_material = [&](std::uint32_t m) { return m == k_none || m < materials; };
+  return is_material(e.trunk_material) && is_material(e.leaf_material);
+}
+
+bool is_sound(const ExactInstance& e, std::uint32_t materials) {
+  return is_finite(e.position) && is_rotation(e.rotation) && e.scale > 0 && std::isfinite(e.scale) &&
+         has_materials(e, materials) && e.tint[3] == 0;
+}
+
+template <class T>
+bool all_sound(std::span<const T> instances, std::uint32_t materials) {
+  std::size_t bad = 0;
+  for (const T& i : instances) bad += !is_sound(i, materials);
+  return bad == 0;
+}
+
 void check_packed(const Ecosystem& eco, Findings& findings) {
   const auto materials = static_cast<std::uint32_t>(eco.materials.size());
-  const auto bad_material = [&](std::uint8_t m) { return m != k_own_material && m >= materials; };
-  const auto is_bad = [&](const PackedInstance& i) {
-    return i.position >> 63 || !is_packed_rotation(i.rotation) || bad_material(i.trunk_material) ||
-           bad_material(i.leaf_material);
-  };
-  std::size_t bad = 0;
-  for (const PackedInstance& i : eco.packed) bad += is_bad(i);
-  if (bad == 0) return;
+  if (all_sound(eco.packed.span(), materials)) return;
   for (std::size_t i = 0; i < eco.packed.size(); ++i)
-    if (is_bad(eco.packed[i])) findings.add("EINS", i, "rotation, material or unused bits are out of range");
+    if (!is_sound(eco.packed[i], materials))
+      findings.add("EINS", i, "rotation, material or unused bits are out of range");
 }
 
 void check_exact(const Ecosystem& eco, Findings& findings) {
-  const auto is_material = [&](std::uint32_t m) { return m == k_none || m < eco.materials.size(); };
+  const auto materials = static_cast<std::uint32_t>(eco.materials.size());
+  if (all_sound(eco.exact.span(), materials)) return;
   for (std::size_t i = 0; i < eco.exact.size(); ++i) {
     const ExactInstance& e = eco.exact[i];
-    double square = 0;
-    for (const float r : e.rotation) square += static_cast<double>(r) * static_cast<double>(r);
-    if (!is_finite(e.position) || !(std::abs(square - 1) < 1e-5))
+    if (!is_finite(e.position) || !is_rotation(e.rotation))
       findings.add("EINX", i, "position or rotation is none");
     if (!(e.scale > 0 && std::isfinite(e.scale))) findings.add("EINX", i, "the scale is not above 0");
-    if (!is_material(e.trunk_material) || !is_material(e.leaf_material))
-      findings.add("EINX", i, "material out of range");
+    if (!has_materials(e, materials)) findings.add("EINX", i, "material out of range");
     if (e.tint[3] != 0) findings.add("EINX", i, "reserved bytes are not zero");
   }
 }
@@ -167,15 +188,25 @@ void check_tree_boxes(std::string_view section, const Array<BlockNode>& nodes, c
 
 }  // namespace
 
-void check_ecosystem_elements(const Ecosystem& eco, Findings& findings) {
+void check_ecosystem_frame(const Ecosystem& eco, Findings& findings) {
   check_materials(eco, findings);
   check_terrain(eco.terrain, findings);
   check_blocks(eco, findings);
-  check_packed(eco, findings);
-  check_exact(eco, findings);
   check_nodes(eco, findings);
   check_tree_nodes("EKDT", eco.kd_tree, eco, findings);
   check_tree_nodes("ERTR", eco.rtree, eco, findings);
+}
+
+void check_ecosystem_elements(const Ecosystem& eco, Findings& findings) {
+  check_ecosystem_frame(eco, findings);
+  check_packed(eco, findings);
+  check_exact(eco, findings);
+}
+
+bool is_sound_block(const Ecosystem& eco, const InstanceBlock& block) {
+  const auto materials = static_cast<std::uint32_t>(eco.materials.size());
+  return eco.exact.empty() ? all_sound(eco.packed.span().subspan(block.first, block.count), materials)
+                           : all_sound(eco.exact.span().subspan(block.first, block.count), materials);
 }
 
 void check_ecosystem_boxes(const Ecosystem& eco, Findings& findings) {

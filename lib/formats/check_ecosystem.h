@@ -10,6 +10,12 @@ namespace copse {
 // Precondition: arrays of the sizes that the head gives. Linear, at about the speed of memory.
 void check_ecosystem_elements(const Ecosystem& eco, Findings& findings);
 
+// The same without a look at any instance: after this every block is a range of instances that are there.
+void check_ecosystem_frame(const Ecosystem& eco, Findings& findings);
+
+// Whether the instances of one block can be used. Precondition: check_ecosystem_frame found nothing.
+bool is_sound_block(const Ecosystem& eco, const InstanceBlock& block);
+
 // That boxes contain what they must, and that blocks lie in the leaf of the hierarchy that owns them: costs a
 // transformed box an instance. Precondition: check_ecosystem_elements found nothing.
 void check_ecosystem_boxes(const Ecosystem& eco, Findings& findings);

@@ -35,7 +35,12 @@ struct EcosystemFile::Impl {
     return file.refuse_section(*at, at->encoding == Encoding::raw ? fault.offset : 0, fault.what);
   }
   Result<void> load_records(Ecosystem& eco, Verify verify) const;
-  Result<Ecosystem> load(Verify verify) const;
+  Result<Ecosystem> load(Verify verify, Instances instances) const;
+  // Whether the instances can stay where they are until they are used.
+  bool can_wait(std::string_view section) const {
+    const SectionInfo* at = file.find(section);
+    return (section == "EINS" || section == "EINX") && at && at->encoding == Encoding::raw;
+  }
 };
 
 Result<void> EcosystemFile::Impl::check_section(std::string_view name, std::uint64_t count,
@@ -109,13 +114,14 @@ Result<void> EcosystemFile::Impl::load_records(Ecosystem& eco, Verify verify) co
   return {};
 }
 
-Result<Ecosystem> EcosystemFile::Impl::load(Verify verify) const {
+Result<Ecosystem> EcosystemFile::Impl::load(Verify verify, Instances instances) const {
   Ecosystem eco = head;
   if (auto records = load_records(eco, verify); !records) return std::unexpected(records.error());
   Result<void> state;
   for_each_array(eco, counts, [&]<class T>(std::string_view name, Array<T>& array, std::uint64_t) {
     if (!state) return;
-    auto decoded = bytes(name, verify);
+    const bool waits = instances == Instances::on_demand && can_wait(name);
+    auto decoded = bytes(name, waits ? Verify::no : verify);
     if (!decoded) {
       state = std::unexpected(decoded.error());
       return;
@@ -164,11 +170,14 @@ const Container& EcosystemFile::container() const {
   return impl_->file;
 }
 
-Result<Ecosystem> EcosystemFile::load() const {
-  auto eco = impl_->load(impl_->trust == Trust::file ? Verify::no : Verify::yes);
+Result<Ecosystem> EcosystemFile::load(Instances instances) const {
+  auto eco = impl_->load(impl_->trust == Trust::file ? Verify::no : Verify::yes, instances);
   if (!eco || impl_->trust != Trust::nothing) return eco;
   Findings findings;
-  check_ecosystem_elements(*eco, findings);
+  if (instances == Instances::on_demand && (impl_->can_wait("EINS") || impl_->can_wait("EINX")))
+    check_ecosystem_frame(*eco, findings);
+  else
+    check_ecosystem_elements(*eco, findings);
   if (findings.empty()) return eco;
   const Finding& first = findings.listed().front();
   const SectionInfo* section = impl_->file.find(first.section);
@@ -183,7 +192,7 @@ std::vector<std::string> EcosystemFile::verify() const {
   std::vector<std::string> failures;
   for (const SectionInfo& s : impl_->file.sections())
     if (auto sound = impl_->file.verify(s); !sound) failures.push_back(sound.error().what);
-  auto eco = impl_->load(Verify::no);
+  auto eco = impl_->load(Verify::no, Instances::at_once);
   if (!eco) {
     failures.push_back(eco.error().what);
     return failures;

@@ -25,6 +25,11 @@ inline constexpr std::uint32_t k_max_terrain_side = 32768;  // vertices
 // as such; elements are not checked (check_ecosystem does).
 Result<std::vector<std::uint8_t>> encode_ecosystem(const Ecosystem& eco, Encoding encoding = Encoding::raw);
 
+// on_demand: neither read nor checked when the file is loaded, so that of a mapped file only those pages are
+// read whose instances are used; each block is then to be checked by is_sound_block (check_ecosystem.h)
+// before it is. Compressed instances are loaded and checked at once, whatever is asked for.
+enum class Instances : std::uint8_t { at_once, on_demand };
+
 class EcosystemFile {
  public:
   // Maps the file; reads and checks header, section table and EHED: O(sections).
@@ -32,7 +37,7 @@ class EcosystemFile {
   static Result<EcosystemFile> from_bytes(std::vector<std::uint8_t> bytes, std::string name,
                                           Trust trust = Trust::nothing);
 
-  Result<Ecosystem> load() const;
+  Result<Ecosystem> load(Instances instances = Instances::at_once) const;
   const Container& container() const;
 
   // All checksums and all invariants, every failure; that the boxes of blocks and nodes contain what they

@@ -12,11 +12,10 @@ DoubleBox absolute(const FloatBox& box, const Double3& origin) {
 
 class Culler {
  public:
-  Culler(const Ecosystem& eco, const Frustum& frustum, const Double3& eye,
-         std::vector<std::uint32_t>& visible)
+  Culler(const Ecosystem& eco, const Frustum& frustum, const Double3& eye, std::vector<SeenBlock>& visible)
       : eco_(eco), frustum_(frustum), eye_(eye), visible_(visible) {}
 
-  CullCounts run() {
+  void by_boxes() {
     struct Entry {
       std::uint32_t level, index;
     };
@@ -29,36 +28,61 @@ class Culler {
       const QuadNode& node = eco_.boxes[first_quad_node(at.level) + at.index];
       if (node.bounds.empty()) continue;
       ++counts_.nodes_visited;
-      const Visibility seen =
-          classify(frustum_, eye_, absolute(node.bounds, eco_.origin), &counts_.plane_tests);
+      const Visibility seen = see(node.bounds);
       if (seen == Visibility::outside) continue;
       if (seen == Visibility::inside || at.level == eco_.depth) {
-        take(node, seen == Visibility::crossing);
+        take(node.first_block, node.block_count, seen == Visibility::crossing);
         continue;
       }
       for (std::uint32_t c = 4; c-- > 0;) stack[top++] = {at.level + 1, 4 * at.index + c};
     }
-    return counts_;
   }
 
- private:
-  void take(const QuadNode& node, bool test) {
-    for (std::uint32_t b = node.first_block; b < node.first_block + node.block_count; ++b) {
-      const InstanceBlock& block = eco_.blocks[b];
-      if (block.bounds.empty()) continue;
-      const DoubleBox box = absolute(block.bounds, eco_.origin);
-      const double range = eco_.types[block.type].view_range;
-      if (range > 0 && distance_to(eye_, box) > range) continue;
-      counts_.blocks_tested += test;
-      if (test && classify(frustum_, eye_, box, &counts_.plane_tests) == Visibility::outside) continue;
-      visible_.push_back(b);
+  // Depth first with skips: one walk through the array, without a stack.
+  void by_tree(const Array<BlockNode>& nodes) {
+    std::size_t inside_until = 0;
+    for (std::size_t i = 0; i < nodes.size();) {
+      const BlockNode& node = nodes[i];
+      if (i >= inside_until) {
+        ++counts_.nodes_visited;
+        const Visibility seen = see(node.bounds);
+        if (seen == Visibility::inside) inside_until = node.skip;
+        if (seen == Visibility::outside) {
+          i = node.skip;
+          continue;
+        }
+      }
+      if (node.block != k_none && in_range(eco_.blocks[node.block]))
+        visible_.push_back({node.block, i < inside_until});
+      ++i;
     }
+  }
+
+  void take(std::uint32_t first, std::uint32_t count, bool test) {
+    for (std::uint32_t b = first; b < first + count; ++b) {
+      const InstanceBlock& block = eco_.blocks[b];
+      if (block.bounds.empty() || !in_range(block)) continue;
+      counts_.blocks_tested += test;
+      const Visibility seen = test ? see(block.bounds) : Visibility::inside;
+      if (seen != Visibility::outside) visible_.push_back({b, seen == Visibility::inside});
+    }
+  }
+
+  const CullCounts& counts() const { return counts_; }
+
+ private:
+  Visibility see(const FloatBox& box) {
+    return classify(frustum_, eye_, absolute(box, eco_.origin), &counts_.plane_tests);
+  }
+  bool in_range(const InstanceBlock& block) const {
+    const double range = eco_.types[block.type].view_range;
+    return !(range > 0) || distance_to(eye_, absolute(block.bounds, eco_.origin)) <= range;
   }
 
   const Ecosystem& eco_;
   const Frustum& frustum_;
   const Double3& eye_;
-  std::vector<std::uint32_t>& visible_;
+  std::vector<SeenBlock>& visible_;
   CullCounts counts_;
 };
 
@@ -70,11 +94,26 @@ double distance_to(const Double3& point, const DoubleBox& box) {
   return length(gap);
 }
 
-void visible_blocks(const Ecosystem& eco, const Frustum& frustum, const Double3& eye,
-                    std::vector<std::uint32_t>& visible, CullCounts* counts) {
+bool has_hierarchy(const Ecosystem& eco, BlockHierarchy by) {
+  const auto bounded = [](const InstanceBlock& b) { return !b.bounds.empty(); };
+  if (by == BlockHierarchy::kd_tree || by == BlockHierarchy::rtree) {
+    const bool there = !(by == BlockHierarchy::kd_tree ? eco.kd_tree : eco.rtree).empty();
+    return there || std::none_of(eco.blocks.begin(), eco.blocks.end(), bounded);
+  }
+  return true;
+}
+
+void visible_blocks(const Ecosystem& eco, BlockHierarchy by, const Frustum& frustum, const Double3& eye,
+                    std::vector<SeenBlock>& visible, CullCounts* counts) {
   visible.clear();
-  const CullCounts done = Culler(eco, frustum, eye, visible).run();
-  if (counts) *counts = done;
+  Culler culler(eco, frustum, eye, visible);
+  const auto all = static_cast<std::uint32_t>(eco.blocks.size());
+  if (by == BlockHierarchy::none) culler.take(0, all, false);
+  if (by == BlockHierarchy::flat) culler.take(0, all, true);
+  if (by == BlockHierarchy::boxes) culler.by_boxes();
+  if (by == BlockHierarchy::kd_tree) culler.by_tree(eco.kd_tree);
+  if (by == BlockHierarchy::rtree) culler.by_tree(eco.rtree);
+  if (counts) *counts = culler.counts();
 }
 
 }  // namespace copse

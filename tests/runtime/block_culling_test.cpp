@@ -1,5 +1,6 @@
 #include "lib/runtime/block_culling.h"
 
+#include "lib/analysis/ecosystem/block_trees.h"
 #include "lib/formats/random.h"
 #include "tests/formats/ecosystem_maker.h"
 
@@ -10,58 +11,97 @@
 namespace copse {
 namespace {
 
-std::vector<std::uint32_t> seen(const Ecosystem& eco, const Camera& camera, CullCounts* counts = nullptr) {
-  std::vector<std::uint32_t> visible;
-  visible_blocks(eco, frustum_of(make_view(camera, 1.5, 0.1, 1000)), camera.eye, visible, counts);
+constexpr BlockHierarchy k_all[] = {BlockHierarchy::flat, BlockHierarchy::boxes, BlockHierarchy::kd_tree,
+                                    BlockHierarchy::rtree};
+
+Ecosystem with_trees(bool exact) {
+  Ecosystem eco = little_ecosystem(exact);
+  eco.kd_tree = block_kd_tree(eco);
+  eco.rtree = block_rtree(eco);
+  return eco;
+}
+
+std::vector<SeenBlock> seen(const Ecosystem& eco, const Camera& camera, BlockHierarchy by,
+                            CullCounts* counts = nullptr) {
+  std::vector<SeenBlock> visible;
+  visible_blocks(eco, by, frustum_of(make_view(camera, 1.5, 0.1, 1000)), camera.eye, visible, counts);
+  std::sort(visible.begin(), visible.end(),
+            [](const SeenBlock& a, const SeenBlock& b) { return a.block < b.block; });
   return visible;
 }
 
-TEST(BlockCulling, SeesWhatTestingEveryBlockSees) {
-  const Ecosystem eco = little_ecosystem(false);
+const Camera k_above{.eye = {10, 200, 10.01}, .target = {10, 0, 10}, .up = {0, 0, -1}, .fov = 1};
+
+TEST(BlockCulling, EveryHierarchySeesWhatTestingEveryBlockSees) {
+  const Ecosystem eco = with_trees(false);
   Random random(1);
   std::size_t some = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const auto point = [&] {
       return Double3{random.uniform(-10, 30), random.uniform(0, 10), random.uniform(-10, 30)};
     };
     const Camera camera{.eye = point(), .target = point(), .up = {0, 1, 0}, .fov = random.uniform(0.1, 1)};
     const Frustum frustum = frustum_of(make_view(camera, 1.5, 0.1, 1000));
-    std::vector<std::uint32_t> flat;
+    std::vector<SeenBlock> judged;
     for (std::uint32_t b = 0; b < eco.blocks.size(); ++b) {
       const FloatBox& box = eco.blocks[b].bounds;
-      if (classify(frustum, camera.eye, {eco.origin + to_double(box.min), eco.origin + to_double(box.max)}) !=
-          Visibility::outside)
-        flat.push_back(b);
+      const Visibility v =
+          classify(frustum, camera.eye, {eco.origin + to_double(box.min), eco.origin + to_double(box.max)});
+      if (v != Visibility::outside) judged.push_back({b, v == Visibility::inside});
     }
-    EXPECT_EQ(seen(eco, camera), flat);
-    some += !flat.empty() && flat.size() < eco.blocks.size();
+    for (const BlockHierarchy by : k_all) EXPECT_EQ(seen(eco, camera, by), judged) << static_cast<int>(by);
+    some += !judged.empty() && judged.size() < eco.blocks.size();
   }
-  EXPECT_GT(some, 300u);
+  EXPECT_GT(some, 150u);
 }
 
 TEST(BlockCulling, BelowANodeThatIsInsideNothingIsTested) {
+  const Ecosystem eco = with_trees(false);
+  for (const BlockHierarchy by : {BlockHierarchy::boxes, BlockHierarchy::kd_tree, BlockHierarchy::rtree}) {
+    CullCounts counts;
+    const auto blocks = seen(eco, k_above, by, &counts);
+    EXPECT_EQ(blocks.size(), 8u);
+    EXPECT_TRUE(std::all_of(blocks.begin(), blocks.end(), [](const SeenBlock& b) { return b.whole; }));
+    EXPECT_EQ(counts.nodes_visited, 1u);
+    EXPECT_EQ(counts.blocks_tested, 0u);
+    EXPECT_EQ(counts.plane_tests, 6u);
+  }
+}
+
+TEST(BlockCulling, WithoutCullingEverythingIsSeenAndNothingTested) {
   CullCounts counts;
-  const Camera above{.eye = {10, 200, 10.01}, .target = {10, 0, 10}, .up = {0, 0, -1}, .fov = 1};
-  EXPECT_EQ(seen(little_ecosystem(false), above, &counts).size(), 8u);
-  EXPECT_EQ(counts.nodes_visited, 1u);
-  EXPECT_EQ(counts.blocks_tested, 0u);
+  const Camera away{.eye = {10, 5, 40}, .target = {10, 5, 90}};
+  EXPECT_EQ(seen(little_ecosystem(false), away, BlockHierarchy::none, &counts).size(), 8u);
+  EXPECT_EQ(counts.plane_tests, 0u);
+  EXPECT_TRUE(seen(little_ecosystem(false), away, BlockHierarchy::flat).empty());
 }
 
 TEST(BlockCulling, AViewRangeEndsWhatIsSeen) {
-  Ecosystem eco = little_ecosystem(true);
-  const Camera above{.eye = {10, 200, 10.01}, .target = {10, 0, 10}, .up = {0, 0, -1}, .fov = 1};
-  eco.types[1].view_range = 100;
-  EXPECT_EQ(seen(eco, above).size(), 4u);
-  eco.types[1].view_range = 300;
-  EXPECT_EQ(seen(eco, above).size(), 8u);
+  Ecosystem eco = with_trees(true);
+  for (const BlockHierarchy by : k_all) {
+    eco.types[1].view_range = 100;
+    EXPECT_EQ(seen(eco, k_above, by).size(), 4u);
+    eco.types[1].view_range = 300;
+    EXPECT_EQ(seen(eco, k_above, by).size(), 8u);
+  }
 }
 
 TEST(BlockCulling, OfNothingNothingIsSeen) {
-  EXPECT_TRUE(seen(Ecosystem{}, Camera{}).empty());
+  for (const BlockHierarchy by : k_all) EXPECT_TRUE(seen(Ecosystem{}, Camera{}, by).empty());
   Ecosystem eco = little_ecosystem(false);
   std::vector<QuadNode> nodes(5);  // all invalid
   eco.boxes = nodes;
-  EXPECT_TRUE(seen(eco, Camera{.eye = {10, 5, 40}, .target = {10, 0, 10}}).empty());
+  EXPECT_TRUE(seen(eco, Camera{.eye = {10, 5, 40}, .target = {10, 0, 10}}, BlockHierarchy::boxes).empty());
+}
+
+TEST(BlockCulling, AHierarchyIsThereWhenItsFileHasIt) {
+  const Ecosystem bare = little_ecosystem(false), rich = with_trees(false);
+  for (const BlockHierarchy by : {BlockHierarchy::kd_tree, BlockHierarchy::rtree}) {
+    EXPECT_FALSE(has_hierarchy(bare, by));
+    EXPECT_TRUE(has_hierarchy(rich, by));
+    EXPECT_TRUE(has_hierarchy(Ecosystem{}, by));
+  }
+  EXPECT_TRUE(has_hierarchy(bare, BlockHierarchy::boxes));
 }
 
 TEST(BlockCulling, TheDistanceToABoxIsThatToItsNearestPoint) {

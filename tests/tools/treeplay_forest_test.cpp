@@ -1,9 +1,14 @@
 // treeplay on ecosystems.
+#include "lib/formats/ecosystem_file.h"
 #include "lib/formats/import/image.h"
 #include "tests/tools/process.h"
 #include "tests/tools/rich_tree.h"
 
+#include <filesystem>
+#include <set>
+
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace copse {
 namespace {
@@ -54,6 +59,145 @@ TEST_F(TreeplayForest, TreesTakeTheLevelOfTheirDistance) {
   EXPECT_GT(few, 0.1 * all);  // two levels, no nothing
 }
 
+// A cell of a table of the report, in the row that begins with `row`.
+double reported(const std::string& report, const std::string& table, const std::string& row,
+                std::size_t cell) {
+  const auto json = nlohmann::json::parse(report);
+  for (const auto& t : json["tables"])
+    if (t["name"] == table)
+      for (const auto& r : t["rows"])
+        if (row.empty() || r[0] == row) return std::stod(r[cell].get<std::string>());
+  ADD_FAILURE() << table << " has no " << row;
+  return 0;
+}
+
+// Four thousand trees on a square of 400 m, their far level a picture.
+class TreeplayLargeForest : public TreeplayForest {
+ protected:
+  void SetUp() override {
+    TreeplayForest::SetUp();
+    const Outcome baked =
+        run_process({"lodbake", file("rich.stree"), "-o", file("far.stree"), "--discrete", "0.5,0.2",
+                     "--near", "10", "--far", "40", "--impostor", "128", "--impostor-views", "4"});
+    ASSERT_EQ(baked.status, 0) << baked.err;
+    make("far.stree", {});
+  }
+  void make(const std::string& tree, const Strings& more) {
+    write_text(
+        file("page.json"),
+        R"({"terrain": {"size": [400, 400], "samples": [129, 129], "faults": {"count": 40, "first": 4}},
+      "block_trees": ["kd", "r"], "types": [{"name": "rich", "tree": ")" +
+            tree + R"(", "count": 4000}]})");
+    Strings command{"ecogen", file("page.json"), "-o", file("f.eco")};
+    command.insert(command.end(), more.begin(), more.end());
+    const Outcome o = run_process(command);
+    ASSERT_EQ(o.status, 0) << o.err;
+  }
+  const Strings eye_{"--camera", "200,2,390,200,4,200,40", "--above-ground"};
+  Strings with(Strings more) const {
+    more.insert(more.end(), eye_.begin(), eye_.end());
+    return more;
+  }
+};
+
+TEST_F(TreeplayLargeForest, EveryWayOfCullingDrawsTheSame) {
+  std::vector<double> drawn;
+  std::string picture;
+  for (const char* by : {"flat", "hierarchy", "kd", "r"}) {
+    const Outcome o = play(with({"--unlit", "--cull", by, "--report", file("r.json")}));
+    ASSERT_EQ(o.status, 0) << o.err;
+    drawn.push_back(stat(10));
+    EXPECT_EQ(reported(read_text(file("r.json")), "culling, the mean of a frame", "", 5), drawn.back());
+    const std::string now = read_text(file("f.png"));
+    if (picture.empty()) picture = now;
+    EXPECT_EQ(now, picture) << by;
+  }
+  EXPECT_EQ(std::set<double>(drawn.begin(), drawn.end()).size(), 1u);
+  EXPECT_GT(drawn[0], 100);
+  EXPECT_LT(drawn[0], 3000);
+  ASSERT_EQ(play(with({"--unlit", "--cull", "none"})).status, 0);
+  EXPECT_EQ(stat(10), 4000);
+}
+
+TEST_F(TreeplayLargeForest, OnlyTheBlocksThatAViewNeedsAreRead) {
+  ASSERT_EQ(
+      play({"--camera", "200,1,399,200,-3,401,20", "--above-ground", "--unlit", "--report", file("r.json")})
+          .status,
+      0);
+  const std::string report = read_text(file("r.json"));
+  const std::string table = "instances read from the file";
+  EXPECT_EQ(reported(report, table, "instances", 2), 4000);
+  EXPECT_LT(reported(report, table, "instances", 1), 1000);
+  EXPECT_LT(reported(report, table, "blocks", 1), 0.25 * reported(report, table, "blocks", 2));
+  EXPECT_EQ(reported(report, table, "bytes", 1), 24 * reported(report, table, "instances", 1));
+}
+
+TEST_F(TreeplayLargeForest, WhatIsFarIsDrawnAsPictures) {
+  ASSERT_EQ(play(with({"--unlit"})).status, 0);
+  const double pictures = stat(22), triangles = stat(6);
+  EXPECT_GT(pictures, 100);
+  EXPECT_LT(pictures, stat(10));
+  ASSERT_EQ(play(with({"--unlit", "--level", "0"})).status, 0);
+  EXPECT_EQ(stat(22), 0);
+  EXPECT_LT(triangles, 0.2 * stat(6));
+}
+
+// From above: the ground west of a tree is darker with the sun in the east than with the sun in the west, and
+// the other way about.
+TEST_F(TreeplayForest, ATreeCastsItsShadowAwayFromTheSun) {
+  write_text(file("page.json"), R"({"terrain": {"size": [40, 40]},
+      "types": [{"name": "rich", "tree": "rich.stree", "instances": [{"x": 20, "z": 20, "scale": 1.5}]}]})");
+  ASSERT_EQ(run_process({"ecogen", file("page.json"), "-o", file("f.eco")}).status, 0);
+  const auto light = [&](const char* sun, std::size_t first) {
+    EXPECT_EQ(play({"--camera", "20,60,20.01,20,0,20,6", "--sun", sun}).status, 0);
+    const auto image = read_image(file("f.png"));
+    double sum = 0;
+    for (std::size_t y = 15; image && y < 17; ++y)
+      for (std::size_t x = first; x < first + 3; ++x) sum += image->rgba[4 * (y * 48 + x) + 1];
+    return sum;
+  };
+  EXPECT_LT(light("90,45", 10), 0.9 * light("-90,45", 10));
+  EXPECT_LT(light("-90,45", 35), 0.9 * light("90,45", 35));
+}
+
+TEST_F(TreeplayLargeForest, ATreeThatHasChangedIsToldWithBothHashes) {
+  ASSERT_EQ(run_process({"treedump", file("f.eco"), "--verify"}).status, 0);
+  std::filesystem::copy_file(file("rich.stree"), file("far.stree"),
+                             std::filesystem::copy_options::overwrite_existing);
+  const Outcome o = play(with({"--unlit"}));
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(line_count(o.err), 1u) << o.err;
+  EXPECT_NE(o.err.find("far.stree: is not the file that the ecosystem was made with: hash xxh3:"),
+            std::string::npos)
+      << o.err;
+  const Outcome v = run_process({"treedump", file("f.eco"), "--verify"});
+  EXPECT_EQ(v.status, 1);
+  EXPECT_NE((v.out + v.err).find("far.stree"), std::string::npos);
+}
+
+TEST_F(TreeplayLargeForest, DamagedInstancesAreRefusedWhenTheyAreSeen) {
+  std::string bytes = read_text(file("f.eco"));
+  // The highest bit of every position is unused.
+  const auto file_of = EcosystemFile::open(file("f.eco"));
+  const SectionInfo* section = file_of->container().find("EINS");
+  for (std::size_t i = section->offset + 7; i < section->offset + section->stored_size; i += 24)
+    bytes[i] = static_cast<char>(bytes[i] | 0x80);
+  write_text(file("f.eco"), bytes);
+  const Outcome o = play(with({"--unlit"}));
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(line_count(o.err), 1u) << o.err;
+  EXPECT_NE(o.err.find("block "), std::string::npos) << o.err;
+  EXPECT_FALSE(std::filesystem::exists(file("f.png")));
+}
+
+TEST_F(TreeplayLargeForest, CompressedInstancesAreDrawnAsWell) {
+  ASSERT_EQ(play(with({"--unlit"})).status, 0);
+  const std::string picture = read_text(file("f.png"));
+  make("far.stree", {"--compress"});
+  ASSERT_EQ(play(with({"--unlit"})).status, 0);
+  EXPECT_EQ(read_text(file("f.png")), picture);
+}
+
 TEST_F(TreeplayForest, TheGroundGoesOnWhereTheTerrainEnds) {
   // Away from the terrain, down and up.
   for (const bool down : {true, false}) {
@@ -72,6 +216,10 @@ TEST_F(TreeplayForest, WhatItCannotShowItSays) {
     EXPECT_NE(o.err.find("is an ecosystem"), std::string::npos) << o.err;
     EXPECT_EQ(line_count(o.err), 1u);
   }
+  const Outcome o = play({"--cull", "kd"});
+  EXPECT_EQ(o.status, 2);
+  EXPECT_NE(o.err.find("block_trees"), std::string::npos) << o.err;
+  EXPECT_EQ(play({"--above-ground"}).status, 2);
 }
 
 }  // namespace

@@ -295,9 +295,11 @@ TEST(Treeplay, NumbersTheFramesOfAPathAndCountsWhatItDrew) {
   }
   const std::string text = read_text(stats);
   EXPECT_EQ(line_count(text), 4u);
-  EXPECT_EQ(text.substr(0, text.find('\n')),
-            "frame,t_frame,t_application,t_render,t_estimated,budget,triangles,lines,points,instances_tested,"
-            "instances_drawn,nodes_visited,plane_tests,missed,needless,ssim,level,level_error,distance");
+  EXPECT_EQ(
+      text.substr(0, text.find('\n')),
+      "frame,t_frame,t_application,t_render,t_estimated,budget,triangles,lines,points,instances_tested,"
+      "instances_drawn,nodes_visited,plane_tests,missed,needless,ssim,level,level_error,distance,t_cull,"
+      "blocks_tested,blocks_seen,impostors,shadow_triangles");
   EXPECT_NE(text.find(",,,7,0,0,1,1,,"), std::string::npos) << text;
 }
 

@@ -1,5 +1,6 @@
 #include "lib/analysis/volumes/check_certificates.h"
 #include "lib/formats/ecosystem_file.h"
+#include "lib/formats/type_hash.h"
 #include "tools/treedump/levels_view.h"
 #include "tools/treedump/views.h"
 
@@ -13,8 +14,11 @@ Result<std::vector<std::string>> verify_file(const std::filesystem::path& path) 
   if (!container) return std::vector<std::string>{container.error().what};
   if (container->kind() == FileKind::eco) {
     const auto eco = EcosystemFile::open(path);
-    if (eco) return eco->verify();
-    return std::vector<std::string>{eco.error().what};
+    if (!eco) return std::vector<std::string>{eco.error().what};
+    auto failures = eco->verify();
+    const auto sound = failures.empty() ? eco->load(Instances::on_demand) : Result<Ecosystem>(Ecosystem{});
+    if (sound && failures.empty()) failures = changed_trees(*sound, path.parent_path());
+    return failures;
   }
   const auto file = TreeFile::open(path);
   if (file) {

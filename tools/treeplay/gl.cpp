@@ -128,6 +128,9 @@ void Program::set(const char* name, const Float2& value) const {
 void Program::set(const char* name, const Float3& value) const {
   glUniform3f(at(name), value.x, value.y, value.z);
 }
+void Program::set(const char* name, const Float4& value) const {
+  glUniform4f(at(name), value.x, value.y, value.z, value.w);
+}
 void Program::set(const char* name, int x, int y) const {
   glUniform2i(at(name), x, y);
 }

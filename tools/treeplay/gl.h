@@ -67,6 +67,7 @@ class Program {
   void set(const char* name, float value) const;
   void set(const char* name, const Float2& value) const;
   void set(const char* name, const Float3& value) const;
+  void set(const char* name, const Float4& value) const;
   void set(const char* name, const Mat4& value) const;
   void set(const char* name, int x, int y) const;
 

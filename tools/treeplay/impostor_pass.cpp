@@ -3,6 +3,7 @@
 #include "tools/treeplay/shaders.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@ namespace copse::treeplay {
 namespace {
 
 // The units after those that the renderer binds itself.
-constexpr int k_albedo_unit = 5, k_normal_unit = 6;
+constexpr int k_albedo_unit = 5, k_normal_unit = 6, k_frames_unit = 7, k_copies_unit = 8;
 
 // A layer for each view, so that no mip level mixes two of them.
 Texture2 make_layers(const ImpostorAtlas& atlas, const Image& image, GLint format) {
@@ -32,65 +33,176 @@ Texture2 make_layers(const ImpostorAtlas& atlas, const Image& image, GLint forma
   return texture;
 }
 
-void bind(int unit, const Texture2& texture, const Sampler& sampler) {
+void bind(int unit, GLenum target, const Texture2& texture, GLuint sampler) {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.get());
-  glBindSampler(static_cast<GLuint>(unit), sampler.get());
+  glBindTexture(target, texture.get());
+  glBindSampler(static_cast<GLuint>(unit), sampler);
+}
+
+VertexArray make_copies_array(const Buffer& copies) {
+  VertexArray array = make_vertex_array();
+  glBindVertexArray(array.get());
+  glBindBuffer(GL_ARRAY_BUFFER, copies.get());
+  const auto attribute = [](GLuint index, GLint size, GLenum type, std::size_t at) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribDivisor(index, 1);
+    glVertexAttribPointer(index, size, type, type == GL_UNSIGNED_BYTE, sizeof(ImpostorCopy),
+                          reinterpret_cast<const void*>(at));  // NOLINT: an offset, as GL wants it
+  };
+  for (GLuint row = 0; row < 3; ++row)
+    attribute(3 + row, 4, GL_FLOAT, offsetof(ImpostorCopy, copy.rows) + row * sizeof(Float4));
+  attribute(6, 4, GL_UNSIGNED_BYTE, offsetof(ImpostorCopy, copy.tint));
+  attribute(7, 3, GL_FLOAT, offsetof(ImpostorCopy, view));
+  attribute(8, 3, GL_FLOAT, offsetof(ImpostorCopy, weight));
+  return array;
+}
+
+// A texture of plain texels, to fetch from.
+Texture2 make_table(GLsizei width, GLsizei height, GLint format, GLenum channels, const void* texels) {
+  Texture2 texture = make_texture();
+  glBindTexture(GL_TEXTURE_2D, texture.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, channels, GL_FLOAT, texels);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  return texture;
+}
+
+Texture2 make_frames(const std::vector<Double3>& views) {
+  std::vector<Float3> texels;
+  for (const Double3& toward : views) {
+    const ImpostorFrame frame = impostor_frame(toward);
+    for (const Double3& axis : {frame.right, frame.up, toward}) texels.push_back(to_float(axis));
+  }
+  return make_table(3, static_cast<GLsizei>(views.size()), GL_RGB32F, GL_RGB, texels.data());
 }
 
 }  // namespace
 
 Result<ImpostorPass> ImpostorPass::make() {
+  using namespace shaders;
   ImpostorPass pass;
-  auto program =
-      Program::make("impostor", shaders::k_common, shaders::k_impostor_vertex, shaders::k_impostor_fragment);
-  if (!program) return std::unexpected(program.error());
-  pass.program_ = std::move(*program);
+  const std::string blended = std::string(k_common) + std::string(k_impostor_common), single{k_common};
+  struct Wanted {
+    const char* name;
+    const std::string& common;
+    std::string_view vertex, fragment;
+    Program& program;
+  };
+  const Wanted programs[] = {
+      {"impostor coverage", blended, k_impostor_vertex, k_impostor_coverage_fragment, pass.coverage_},
+      {"impostor", blended, k_impostor_vertex, k_impostor_light_fragment, pass.light_},
+      {"picture coverage", single, k_picture_vertex, k_picture_coverage_fragment, pass.single_coverage_},
+      {"picture", single, k_picture_vertex, k_picture_light_fragment, pass.single_light_}};
+  for (const Wanted& w : programs) {
+    auto made = Program::make(w.name, w.common, w.vertex, w.fragment);
+    if (!made) return std::unexpected(made.error());
+    w.program = std::move(*made);
+  }
   pass.no_vertices_ = make_vertex_array();
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  pass.copies_a_row_ = largest / 4;
+  pass.sampler_ = make_sampler();
+  const GLuint sampler = pass.sampler_.get();
+  glSamplerParameteri(sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glSamplerParameteri(sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glSamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glSamplerParameteri(sampler, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   return pass;
 }
 
-Result<void> ImpostorPass::upload(const TreeImpostor& impostor) {
-  atlas_ = impostor.atlas;
-  atlas_.albedo = atlas_.normal = {};
-  views_ = impostor_views(atlas_.layout, atlas_.views);
+Result<std::size_t> ImpostorPass::upload(const TreeImpostor& impostor) {
+  const ImpostorAtlas& atlas = impostor.atlas;
+  const std::vector<Double3> views = impostor_views(atlas.layout, atlas.views);
   GLint most = 0;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
-  if (views_.size() > static_cast<std::size_t>(most))
+  if (views.size() > static_cast<std::size_t>(most))
     return refuse("",
-                  fmt::format("the impostor has {} views, the graphics driver takes {}", views_.size(), most),
+                  fmt::format("the impostor has {} views, the graphics driver takes {}", views.size(), most),
                   "bake it with fewer --impostor-views");
-  albedo_ = make_layers(atlas_, impostor.albedo, GL_SRGB8_ALPHA8);
-  normals_ = make_layers(atlas_, impostor.normals, GL_RGBA8);
-  sampler_ = make_sampler();
-  glSamplerParameteri(sampler_.get(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glSamplerParameteri(sampler_.get(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  glSamplerParameteri(sampler_.get(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  glSamplerParameteri(sampler_.get(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  return check_gl("uploading the impostor");
+  Uploaded u;
+  u.atlas = atlas;
+  u.atlas.albedo = u.atlas.normal = {};
+  u.albedo = make_layers(atlas, impostor.albedo, GL_SRGB8_ALPHA8);
+  u.normals = make_layers(atlas, impostor.normals, GL_RGBA8);
+  u.frames = make_frames(views);
+  u.blended = make_buffer();
+  u.blended_array = make_copies_array(u.blended);
+  uploaded_.push_back(std::move(u));
+  if (auto done = check_gl("uploading the impostor"); !done) return std::unexpected(done.error());
+  return uploaded_.size() - 1;
 }
 
-void ImpostorPass::draw(const Mat4& clip, const Float3& offset, bool lit, bool multisampled) const {
-  const Double3 eye = to_double(offset) * -1.0 - to_double(atlas_.centre);  // from the sphere's centre
-  const ImpostorBlend blend = impostor_blend(atlas_.layout, atlas_.views, eye);
-  bind(k_albedo_unit, albedo_, sampler_), bind(k_normal_unit, normals_, sampler_);
-  program_.use();
-  program_.set("albedo_layers", k_albedo_unit), program_.set("normal_layers", k_normal_unit);
-  program_.set("clip", clip), program_.set("offset", offset);
-  program_.set("centre", atlas_.centre), program_.set("radius", atlas_.radius);
-  program_.set("lit", lit ? 1 : 0), program_.set("multisampled", multisampled ? 1 : 0);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Double3& toward = views_[blend.view[k]];
-    const ImpostorFrame frame = impostor_frame(toward);
-    const auto name = [&](const char* what) { return fmt::format("{}[{}]", what, k); };
-    program_.set(name("layer").c_str(), static_cast<float>(blend.view[k]));
-    program_.set(name("weight").c_str(), static_cast<float>(blend.weight[k]));
-    program_.set(name("view_right").c_str(), to_float(frame.right));
-    program_.set(name("view_up").c_str(), to_float(frame.up));
-    program_.set(name("view_toward").c_str(), to_float(toward));
+Result<void> ImpostorPass::show(std::size_t impostor, const ImpostorCopies& copies) {
+  Uploaded& u = uploaded_[impostor];
+  u.blended_count = static_cast<GLsizei>(copies.blended.size());
+  glBindBuffer(GL_ARRAY_BUFFER, u.blended.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(copies.blended.size() * sizeof(ImpostorCopy)),
+               copies.blended.data(), GL_DYNAMIC_DRAW);
+  u.single_count = static_cast<GLsizei>(copies.single.size());
+  if (copies.single.empty()) return {};
+  const auto a_row = static_cast<std::size_t>(copies_a_row_);
+  const std::size_t rows = (copies.single.size() - 1) / a_row + 1;
+  const std::size_t columns = std::min(copies.single.size(), a_row);
+  if (rows > 4 * a_row)
+    return refuse("",
+                  fmt::format("{} trees far away are more than the graphics driver takes", u.single_count),
+                  "limit what is seen by a view_range");
+  // Whole rows: the last one is filled up.
+  std::vector<PictureCopy> filled;
+  if (rows > 1) filled = copies.single, filled.resize(rows * a_row);
+  u.single = make_table(static_cast<GLsizei>(4 * columns), static_cast<GLsizei>(rows), GL_RGBA32F, GL_RGBA,
+                        rows > 1 ? filled.data() : copies.single.data());
+  return check_gl("uploading the trees far away");
+}
+
+void ImpostorPass::draw(const Program& program, bool single) const {
+  program.set("albedo_layers", k_albedo_unit), program.set("normal_layers", k_normal_unit);
+  program.set("view_frames", k_frames_unit), program.set("copies", k_copies_unit);
+  program.set("copies_a_row", copies_a_row_);
+  for (const Uploaded& u : uploaded_) {
+    const GLsizei count = single ? u.single_count : u.blended_count;
+    if (count == 0) continue;
+    bind(k_albedo_unit, GL_TEXTURE_2D_ARRAY, u.albedo, sampler_.get());
+    bind(k_normal_unit, GL_TEXTURE_2D_ARRAY, u.normals, sampler_.get());
+    bind(k_frames_unit, GL_TEXTURE_2D, u.frames, 0);
+    program.set("centre", u.atlas.centre), program.set("radius", u.atlas.radius);
+    if (single) {
+      bind(k_copies_unit, GL_TEXTURE_2D, u.single, 0);
+      glBindVertexArray(no_vertices_.get());
+      glDrawArrays(GL_TRIANGLES, 0, 6 * count);
+    } else {
+      glBindVertexArray(u.blended_array.get());
+      glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+    }
   }
-  glBindVertexArray(no_vertices_.get());
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void ImpostorPass::draw_coverage(const Mat4& clip, const Float3& offset, float pixel,
+                                 bool multisampled) const {
+  for (const Program* p : {&coverage_, &single_coverage_}) {
+    p->use();
+    p->set("clip", clip), p->set("offset", offset), p->set("pixel", pixel);
+    p->set("multisampled", multisampled ? 1 : 0);
+    draw(*p, p == &single_coverage_);
+  }
+}
+
+void ImpostorPass::draw_light(const Mat4& clip, const Float3& offset, float pixel, bool lit,
+                              float haze_distance) const {
+  for (const Program* p : {&light_, &single_light_}) {
+    p->use();
+    p->set("clip", clip), p->set("offset", offset), p->set("pixel", pixel);
+    p->set("lit", lit ? 1 : 0), p->set("haze_distance", haze_distance);
+    draw(*p, p == &single_light_);
+  }
+}
+
+void ImpostorPass::draw_shadow(const Mat4& clip) const {
+  single_coverage_.use();
+  single_coverage_.set("clip", clip), single_coverage_.set("offset", Float3{});
+  single_coverage_.set("multisampled", 0);
+  draw(single_coverage_, true);
 }
 
 }  // namespace copse::treeplay

@@ -138,6 +138,20 @@ void add_options(CLI::App& app, Options& options) {
   camera->add_option("--path", options.path, "how the camera moves: orbit, linear, or keys from a JSON file")
       ->type_name("orbit|linear|FILE.json");
 
+  camera->add_flag("--above-ground", options.above_ground,
+                   "the heights of --camera count from the terrain of an .eco, not from 0");
+
+  CLI::Option_group* forest = app.add_option_group("Ecosystems");
+  add_choice<BlockHierarchy>(*forest, "--cull", options.cull,
+                             "how what is not seen is found: not at all, block by block, by the box "
+                             "hierarchy, by the kd-tree or the R-tree of the file (\"block_trees\")",
+                             {{"none", BlockHierarchy::none},
+                              {"flat", BlockHierarchy::flat},
+                              {"hierarchy", BlockHierarchy::boxes},
+                              {"kd", BlockHierarchy::kd_tree},
+                              {"r", BlockHierarchy::rtree}})
+      ->type_name("none|flat|hierarchy|kd|r");
+
   CLI::Option_group* detail = app.add_option_group("Level of detail (of a tree that lodbake has been over)");
   CLI::Option* level = detail->add_option("--level", options.detail.level, "this discrete level; 0 is full")
                            ->check(whole_number_from(0, INT_MAX))
@@ -226,6 +240,10 @@ Result<Plan> understand(const Options& options) {
     if (!camera) return std::unexpected(camera.error());
     plan.camera = *camera;
   }
+  if (options.above_ground && !plan.camera)
+    return usage("--above-ground needs --camera", "say where it stands, or leave --above-ground out");
+  plan.above_ground = options.above_ground;
+  plan.settings.cull = options.cull;
   const auto sun = parse_sun(options.sun);
   if (!sun) return std::unexpected(sun.error());
   plan.settings.sun = *sun;

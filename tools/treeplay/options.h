@@ -27,8 +27,9 @@ struct Options {
   std::string frames, size = "1280x720", camera, path, sun = "-48,40", show = "surface", background = "auto";
   std::optional<std::uint64_t> count;
   int samples = 0;  // 0: 16 for pictures, 4 for a window
-  bool headless = false, unlit = false, no_ground = false;
+  bool headless = false, unlit = false, no_ground = false, above_ground = false;
   DetailWish detail;
+  BlockHierarchy cull = BlockHierarchy::boxes;
   std::filesystem::path stats;
   std::uint64_t exit_after = 0;  // frames after which the window closes; 0: never
 };
@@ -38,6 +39,7 @@ struct Plan {
   std::optional<FramePattern> frames;
   int width = 0, height = 0;
   std::optional<Camera> camera;  // none: fitted to the model
+  bool above_ground = false;     // its heights count from the terrain below
   std::uint64_t count = 1;
   Look look;
   RenderSettings settings;

@@ -66,23 +66,25 @@ Result<void> draw_frames(Renderer& renderer, const CameraPath& path, const Plan&
   Stage stage = context.stage("frames");
   for (std::uint64_t i = 0; i < plan.count; ++i) {
     const auto start = Clock::now();
-    const FramePlan frame =
+    const auto frame =
         renderer.plan(path.at(path.moment(i, plan.count)), plan.look, plan.width, plan.height, choice);
+    if (!frame) return std::unexpected(frame.error());
     const auto decided = Clock::now();
-    if (auto done = renderer.draw_picture(frame); !done) return done;
+    if (auto done = renderer.draw_picture(*frame); !done) return done;
     glFinish();
-    statistics.add(frame, seconds(start, decided), seconds(decided, Clock::now()));
+    statistics.add(*frame, seconds(start, decided), seconds(decided, Clock::now()));
     if (plan.frames) {
       if (auto done = write_frame(plan.frames->name(i), renderer.read_picture(), context); !done) return done;
     }
     stage.progress(static_cast<double>(i + 1) / static_cast<double>(plan.count));
   }
   stage.items(plan.count, "frames");
+  statistics.read(renderer.read());
   return {};
 }
 
 Result<void> run_headless(const Scene& scene, const CameraPath& path, const Plan& plan, LevelChoice& choice,
-                          Statistics& statistics, Context& context) {
+                          bool measured, Statistics& statistics, Context& context) {
   std::unique_ptr<GlContext> gl;
   {
     Stage stage = context.stage("open graphics");
@@ -98,10 +100,14 @@ Result<void> run_headless(const Scene& scene, const CameraPath& path, const Plan
     if (!made) return std::unexpected(made.error());
     renderer = std::move(*made);
     if (auto done = check_size(*renderer, plan); !done) return done;
+  }
+  if (measured) {
     // A first small frame lets the driver finish its shaders, so that the first one measured is like the
     // rest.
-    if (auto done = renderer->draw_picture(renderer->plan(path.at(0), plan.look, 16, 16, choice)); !done)
-      return done;
+    Stage stage = context.stage("warm up");
+    const auto first = renderer->plan(path.at(0), plan.look, 16, 16, choice);
+    if (!first) return std::unexpected(first.error());
+    if (auto done = renderer->draw_picture(*first); !done) return done;
     glFinish();
   }
   return draw_frames(*renderer, path, plan, choice, statistics, context);
@@ -161,6 +167,28 @@ Result<void> check_detail(const Scene& scene, const Options& options) {
               "leave the level out, or draw all in full detail by --level 0");
 }
 
+Result<void> check_culling(const Scene& scene, const Options& options) {
+  if (options.cull == BlockHierarchy::boxes) return {};
+  if (!scene.eco)
+    return fail(Fault::usage, options.input.string(),
+                "is no ecosystem, so there is nothing to cull by --cull", "leave --cull out");
+  if (has_hierarchy(*scene.eco, options.cull)) return {};
+  return fail(Fault::usage, options.input.string(), "has no such hierarchy over its blocks",
+              "make it with \"block_trees\": [\"kd\", \"r\"] in its page, or cull by its box hierarchy");
+}
+
+Result<void> raise_camera(const Scene& scene, const Options& options, Plan& plan) {
+  if (!plan.above_ground) return {};
+  for (Double3* point : {&plan.camera->eye, &plan.camera->target}) {
+    const auto ground = scene.eco ? ground_height(scene.eco->terrain, point->x, point->z) : std::nullopt;
+    if (!ground)
+      return fail(Fault::usage, options.input.string(), "has no terrain of heights for --above-ground",
+                  "leave --above-ground out, and give heights from 0");
+    point->y += *ground;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> run(const Options& options, Context& context) {
@@ -189,16 +217,24 @@ Result<void> run(const Options& options, Context& context) {
                : fail(Fault::usage, options.input.string(), "is a mesh and has no hierarchy to show",
                       "make a tree of it with treeprep, or leave --show out");
   }
+  if (auto culls = check_culling(*scene, options); !culls) return culls;
+  if (auto raised = raise_camera(*scene, options, *plan); !raised) return raised;
   const double aspect = static_cast<double>(plan->width) / plan->height;
   const auto path = make_path(options, plan->camera.value_or(framing(*scene, aspect)));
   if (!path) return std::unexpected(path.error());
   if (options.path.ends_with(".json")) context.read(options.path, true);
 
   Statistics statistics;
+  const CommonOptions& common = context.options();
+  const bool measured = !options.stats.empty() || !common.report.empty() || !common.html.empty();
   const auto done = window ? run_viewer(*scene, *path, options, *plan, *choice, statistics, context)
-                           : run_headless(*scene, *path, *plan, *choice, statistics, context);
+                           : run_headless(*scene, *path, *plan, *choice, measured, statistics, context);
   if (!done) return done;
   context.report().tables.push_back(statistics.table());
+  if (scene->eco) {
+    context.report().tables.push_back(statistics.culling());
+    context.report().tables.push_back(statistics.streaming(*scene->eco));
+  }
   if (options.stats.empty()) return {};
   return context.write(options.stats, statistics.csv());
 }

@@ -1,10 +1,11 @@
 #include "tools/treeplay/renderer.h"
 
-#include "lib/runtime/block_culling.h"
 #include "tools/treeplay/shaders.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace copse::treeplay {
 
@@ -64,15 +65,32 @@ Result<std::unique_ptr<Renderer>> Renderer::make(const Scene& scene, const Rende
     if (!pass) return std::unexpected(pass.error());
     r->primitives_ = std::move(*pass);
   }
-  if (scene.levels && scene.levels->impostor()) {
-    auto impostor = ImpostorPass::make();
-    if (!impostor) return std::unexpected(impostor.error());
-    r->impostor_ = std::move(*impostor);
-    if (auto done = r->impostor_.upload(*scene.levels->impostor()); !done)
-      return std::unexpected(done.error());
-  }
+  if (scene.eco) r->forest_ = std::make_unique<ForestPlanner>(scene, settings.cull);
+  if (auto done = r->upload_impostors(); !done) return std::unexpected(done.error());
   if (auto done = r->make_lights(); !done) return std::unexpected(done.error());
   return r;
+}
+
+Result<void> Renderer::upload_impostors() {
+  const auto upload = [&](const TreeImpostor* pictures) -> Result<std::size_t> {
+    if (!impostor_) {
+      auto pass = ImpostorPass::make();
+      if (!pass) return std::unexpected(pass.error());
+      impostor_.emplace(std::move(*pass));
+    }
+    return impostor_->upload(*pictures);
+  };
+  std::vector<const TreeImpostor*> wanted;
+  if (scene_.levels && scene_.levels->impostor()) wanted.push_back(&*scene_.levels->impostor());
+  for (const ForestType& type : scene_.forest.types) wanted.push_back(type.impostor.get());
+  for (const TreeImpostor* pictures : wanted) {
+    impostor_of_.push_back(k_none);
+    if (!pictures) continue;
+    const auto number = upload(pictures);
+    if (!number) return std::unexpected(number.error());
+    impostor_of_.back() = *number;
+  }
+  return {};
 }
 
 Result<void> Renderer::make_programs() {
@@ -125,8 +143,36 @@ Result<void> Renderer::make_lights() {
   };
   compare_sampler_ = sampler(GL_LINEAR, GL_COMPARE_REF_TO_TEXTURE);
   depth_sampler_ = sampler(GL_NEAREST, GL_NONE);
-  if (settings_.lights) draw_shadow_map();
+  if (settings_.lights && !scene_.eco) draw_shadow_map();
   return check_gl("drawing the shadow map");
+}
+
+namespace {
+
+// [-1, 1]^3 to [0, 1]^3, where textures are read.
+Mat4 to_texture(const Mat4& clip) {
+  Mat4 half;
+  half.m = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1};
+  return multiply(half, clip);
+}
+
+}  // namespace
+
+// Depth alone, into a square of the shadow texture.
+void Renderer::begin_shadow(int x, int y, int texels) {
+  if (!shadow_framebuffer_) shadow_framebuffer_ = make_framebuffer();
+  glBindFramebuffer(GL_FRAMEBUFFER, shadow_framebuffer_.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_texture_.get(), 0);
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
+  glViewport(x, y, texels, texels);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(x, y, texels, texels);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void Renderer::draw_shadow_map() {
@@ -149,24 +195,41 @@ void Renderer::draw_shadow_map() {
   const Mat4 clip = multiply(
       orthographic(c.x - width / 2, c.x + width / 2, c.y - width / 2, c.y + width / 2, near_plane, far_plane),
       rotation_into(f.right, f.up, f.back));
-  Mat4 half;
-  half.m = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1};
-  shadow_matrix_ = multiply(half, clip);
-  shadow_reach_ = {static_cast<float>(width), static_cast<float>(far_plane - near_plane)};
-
-  const Framebuffer framebuffer = make_framebuffer();
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_texture_.get(), 0);
-  glDrawBuffer(GL_NONE);
-  glReadBuffer(GL_NONE);
-  const int texels = std::min(settings_.shadow_size, largest_size_);
-  glViewport(0, 0, texels, texels);
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
-  glDepthFunc(GL_LESS);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  shadow_maps_ = {{.matrix = to_texture(clip),
+                   .reach = {static_cast<float>(width), static_cast<float>(far_plane - near_plane)}}};
+  begin_shadow(0, 0, std::min(settings_.shadow_size, largest_size_));
   surfaces_.draw_shadow(clip);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+// Beside one another in one texture; a single one has all of it.
+Result<void> Renderer::draw_forest_shadows(const ForestFrame& frame) {
+  shadow_maps_.clear();
+  shadow_ends_ = !frame.shadows.whole;
+  const int size = std::min(settings_.shadow_size, largest_size_), half = size / 2;
+  for (std::size_t i = 0; i < frame.shadows.count; ++i) {
+    const ShadowCascade& cascade = frame.shadows.cascades[i];
+    const int column = static_cast<int>(i % 2), row = static_cast<int>(i / 2);
+    shadow_maps_.push_back(
+        {.matrix = to_texture(cascade.clip),
+         .reach = {static_cast<float>(cascade.width), static_cast<float>(cascade.depth)},
+         .place = {0.5f, 0.5f, 0.5f * static_cast<float>(column), 0.5f * static_cast<float>(row)}});
+    if (auto shown = show(frame.casters[i]); !shown) return shown;
+    begin_shadow(column * half, row * half, half);
+    surfaces_.draw_shadow(cascade.clip);
+    if (impostor_) impostor_->draw_shadow(cascade.clip);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  return {};
+}
+
+Result<void> Renderer::show(const ForestView& view) {
+  surfaces_.show(view.copies, view.ground);
+  for (std::size_t t = 0; t < view.impostors.size(); ++t) {
+    if (impostor_of_[t] == k_none) continue;
+    if (auto shown = impostor_->show(impostor_of_[t], view.impostors[t]); !shown) return shown;
+  }
+  return {};
 }
 
 // The shadow goes with the level: a coarse tree under the shadow of a fine one would be dappled wrongly. An
@@ -181,8 +244,8 @@ void Renderer::take_level(const ShownLevel& shown) {
   level_ = level;
 }
 
-FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int height,
-                         LevelChoice& choice) const {
+Result<FramePlan> Renderer::plan(const Camera& camera, const Look& look, int width, int height,
+                                 LevelChoice& choice) {
   FramePlan plan;
   plan.look = look;
   plan.width = width;
@@ -199,15 +262,23 @@ FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int 
   const double far_plane = away + 1.5 * k_ground_reach * size;
   const double near_plane = std::max({0.3 * nearest, 1e-4 * size, 1e-6 * far_plane});
   plan.view = make_view(camera, static_cast<double>(width) / height, near_plane, far_plane);
-  if (scene_.eco) {
-    plan_ecosystem(camera, plan);
-    return plan;
+  if (!scene_.eco) {
+    plan_tree(camera, choice, plan);
+  } else if (auto done = plan_forest(plan); !done) {
+    return std::unexpected(done.error());
   }
+  return plan;
+}
+
+void Renderer::plan_tree(const Camera& camera, LevelChoice& choice, FramePlan& plan) const {
+  const Double3 eye = camera.eye;
+  const Look& look = plan.look;
   plan.distance = scene_.distance_from(eye);
   plan.shown = choice.at(plan.distance);
   plan.instances_tested = 1;
-  plan.tree_visible = classify(frustum_of(plan.view), eye, box, &plan.plane_tests) != Visibility::outside;
-  if (!plan.tree_visible) return plan;
+  plan.tree_visible =
+      classify(frustum_of(plan.view), eye, scene_.bounds(), &plan.plane_tests) != Visibility::outside;
+  if (!plan.tree_visible) return;
   plan.instances_drawn = 1;
   if (shows_surface(look.show))
     plan.triangles = plan.shown.impostor ? 2
@@ -220,7 +291,7 @@ FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int 
   if (scene_.lines_points && shows_surface(look.show)) {
     const Double3 forward = plan.view.frame.back * -1.0;
     scene_.lines_points->select(scene_.geometry, eye - scene_.geometry.origin, forward,
-                                2 * plan.view.tan_half_y / height,
+                                2 * plan.view.tan_half_y / plan.height,
                                 look.lit ? to_float(settings_.sun) : Float3{}, plan.primitives);
     plan.triangles = plan.primitives.indices.size() / 3;
     plan.lines = plan.primitives.lines.size();
@@ -230,43 +301,24 @@ FramePlan Renderer::plan(const Camera& camera, const Look& look, int width, int 
     plan.lines = skeleton_.lines();
     plan.points = skeleton_.points();
   }
-  return plan;
 }
 
-// A run in pieces of one level each: a copy of half the size looks at 10 m as the tree itself does at 20 m.
-void Renderer::take_run(const CopyRun& run, const Double3& eye, std::vector<CopyRun>& runs) const {
-  const std::vector<float>& coarser = scene_.groups[run.group].coarser;
-  if (coarser.empty()) return runs.push_back(run);
-  const std::size_t begin = runs.size();
-  for (std::uint32_t c = run.first; c < run.first + run.count; ++c) {
-    const DrawCopy& copy = scene_.copies[c];
-    const auto& [x, y, z] = copy.rows;
-    const double scale = length(Double3{double{x.x}, double{y.x}, double{z.x}});
-    const double away = distance(eye, {double{x.w}, double{y.w}, double{z.w}}) / scale;
-    const auto level = static_cast<std::uint32_t>(
-        std::upper_bound(coarser.begin(), coarser.end(), static_cast<float>(away)) - coarser.begin());
-    if (runs.size() == begin || runs.back().group != run.group + level)
-      runs.push_back({run.group + level, c, 0});
-    ++runs.back().count;
-  }
-}
-
-void Renderer::plan_ecosystem(const Camera& camera, FramePlan& plan) const {
-  std::vector<std::uint32_t> blocks;
-  CullCounts counts;
-  visible_blocks(*scene_.eco, frustum_of(plan.view), camera.eye, blocks, &counts);
-  plan.plane_tests = counts.plane_tests;
-  for (const std::uint32_t b : blocks) {
-    for (std::uint32_t r = scene_.first_run[b]; r < scene_.first_run[b + 1]; ++r) {
-      const std::size_t before = plan.runs.size();
-      take_run(scene_.runs[r], camera.eye - scene_.geometry.origin, plan.runs);
-      for (std::size_t i = before; i < plan.runs.size(); ++i) {
-        plan.instances_drawn += plan.runs[i].count;
-        plan.triangles += plan.runs[i].count * scene_.groups[plan.runs[i].group].triangles;
-      }
-    }
-    plan.instances_tested += scene_.eco->blocks[b].count;
-  }
+Result<void> Renderer::plan_forest(FramePlan& plan) {
+  ForestCounts& counts = plan.forest_counts;
+  auto frame = forest_->plan(plan.view,
+                             {.lit = plan.look.lit && settings_.lights,
+                              .sun = settings_.sun,
+                              .shadow_size = std::min(settings_.shadow_size, largest_size_),
+                              .pixel = 2 * plan.view.tan_half_y / plan.height},
+                             counts);
+  if (!frame) return std::unexpected(frame.error());
+  plan.forest = std::move(*frame);
+  plan.is_forest = true;
+  plan.triangles = counts.triangles;
+  plan.instances_tested = counts.instances_tested;
+  plan.instances_drawn = counts.instances_drawn;
+  plan.plane_tests = counts.culling.plane_tests;
+  return {};
 }
 
 Result<void> Renderer::fit_tile_buffers(int width, int height) {
@@ -304,8 +356,20 @@ Result<void> Renderer::draw(const FramePlan& plan, GLuint framebuffer) {
   const int tile_height = static_cast<int>(
       std::clamp<std::int64_t>(k_tile_fragments / row, 1, std::min(plan.height, largest_size_ / s)));
   if (auto done = fit_tile_buffers(tile_width * s, tile_height * s); !done) return done;
-  if (scene_.eco) surfaces_.show(scene_, plan.runs);
+  if (scene_.eco) {
+    for (; groups_ < forest_->groups().size(); ++groups_)
+      surfaces_.add_group(scene_, forest_->groups()[groups_].ranges);
+    if (plan.look.lit)
+      if (auto done = draw_forest_shadows(plan.forest); !done) return done;
+    if (auto shown = show(plan.forest.seen); !shown) return shown;
+  }
   take_level(plan.shown);
+  if (plan.shown.impostor) {
+    const Double3 eye = plan.view.eye - scene_.geometry.origin;
+    const ImpostorCopies one{.blended = {impostor_copy({}, scene_.levels->impostor()->atlas, eye, false)},
+                             .single = {}};
+    if (auto shown = impostor_->show(0, one); !shown) return shown;
+  }
   if (scene_.foliage && !plan.foliage.ranges.empty()) {
     surfaces_.replace(scene_.foliage->first_leaf_vertex(), plan.foliage.leaves);
     surfaces_.replace(plan.foliage.indices, plan.foliage.ranges);
@@ -337,8 +401,13 @@ void Renderer::set_common(const Program& program, const Tile& tile) const {
   program.set("sun_direction", to_float(settings_.sun));
   program.set("shadow_map", unit_shadow_map);
   program.set("shadow_depth", unit_shadow_depth);
-  program.set("shadow_matrix", shadow_matrix_);
-  program.set("shadow_reach", shadow_reach_);
+  program.set("shadow_count", static_cast<int>(shadow_maps_.size()));
+  program.set("shadow_ends", shadow_ends_ ? 1 : 0);
+  for (std::size_t i = 0; i < shadow_maps_.size(); ++i) {
+    program.set(fmt::format("shadow_matrix[{}]", i).c_str(), shadow_maps_[i].matrix);
+    program.set(fmt::format("shadow_reach[{}]", i).c_str(), shadow_maps_[i].reach);
+    program.set(fmt::format("shadow_place[{}]", i).c_str(), shadow_maps_[i].place);
+  }
   program.set("sky_grid", unit_sky);
   const SkyLight& sky = scene_.sky;
   program.set("sky_corner", sky.corner);
@@ -374,39 +443,41 @@ void Renderer::draw_tile(const FramePlan& plan, const Tile& tile) {
 
   const Show show = plan.look.show;
   if (plan.tree_visible && shows_surface(show)) {
-    if (plan.shown.impostor)
-      draw_impostor(plan, tile);
-    else
-      draw_surfaces(plan, tile, show == Show::both ? 0.6f : 0);
+    draw_surfaces(plan, tile, show == Show::both ? 0.6f : 0);
     if (scene_.lines_points) draw_primitives(plan, tile);
   }
   draw_backdrop(plan, tile);
   if (plan.tree_visible && show != Show::surface) draw_skeleton(plan, tile);
 }
 
+// A forest goes on to the horizon; a tree stands on a ground that does (draw_backdrop).
+float Renderer::haze_of(const FramePlan& plan) const {
+  const bool haze = scene_.eco && backdrop_of(plan.look) == Backdrop::sky;
+  return haze ? k_haze * static_cast<float>(scene_.size()) : 0;
+}
+
 void Renderer::draw_surfaces(const FramePlan& plan, const Tile& tile, float ghost) const {
+  const bool surfaces = !plan.shown.impostor, impostors = impostor_ && draws_impostors(plan);
+  const auto pixel = static_cast<float>(2 * plan.view.tan_half_y / (plan.height * tile.sub_pixels));
   glDepthFunc(GL_LESS);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-  surfaces_.draw_coverage(tile.clip, tile.offset, multisamples_ > 1);
+  if (surfaces) surfaces_.draw_coverage(tile.clip, tile.offset, multisamples_ > 1);
+  if (impostors) impostor_->draw_coverage(tile.clip, tile.offset, pixel, multisamples_ > 1);
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
-  set_common(surfaces_.light_program(), tile);
-  // A forest goes on to the horizon; a tree stands on a ground that does (draw_backdrop).
-  const bool haze = scene_.eco && backdrop_of(plan.look) == Backdrop::sky;
-  surfaces_.draw_light(tile.clip, tile.offset, plan.look.lit, ghost,
-                       haze ? k_haze * static_cast<float>(scene_.size()) : 0);
+  if (surfaces) {
+    set_common(surfaces_.light_program(), tile);
+    surfaces_.draw_light(tile.clip, tile.offset, plan.look.lit, ghost, haze_of(plan));
+  }
+  if (impostors) {
+    set_common(impostor_->light_program(), tile);
+    set_common(impostor_->single_light_program(), tile);
+    impostor_->draw_light(tile.clip, tile.offset, pixel, plan.look.lit, haze_of(plan));
+  }
   glDepthMask(GL_TRUE);
-}
-
-void Renderer::draw_impostor(const FramePlan& plan, const Tile& tile) const {
-  glDepthFunc(GL_LESS);
-  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-  set_common(impostor_.program(), tile);
-  impostor_.draw(tile.clip, tile.offset, plan.look.lit, multisamples_ > 1);
-  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
 void Renderer::draw_backdrop(const FramePlan& plan, const Tile& tile) const {

@@ -1,8 +1,9 @@
-// Draws a scene: shadow map, surfaces, sky and ground, skeleton; multisampled, in tiles when the picture is
+// Draws a scene: shadow maps, surfaces, sky and ground, skeleton; multisampled, in tiles when the picture is
 // larger than what fits, and resolved to sRGB. The same picture from run to run on the same driver.
 #pragma once
 
 #include "lib/runtime/camera.h"
+#include "tools/treeplay/forest_planner.h"
 #include "tools/treeplay/gl.h"
 #include "tools/treeplay/impostor_pass.h"
 #include "tools/treeplay/scene.h"
@@ -12,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace copse::treeplay {
@@ -29,8 +31,9 @@ struct Look {
 struct RenderSettings {
   int samples = 4;         // a pixel: 1, 4, or 4 n^2
   Double3 sun{0, 1, 0};    // towards it; length 1, y > 0
-  int shadow_size = 4096;  // texels a side
+  int shadow_size = 4096;  // texels a side, of all maps together
   bool lights = true;      // false: nothing lit will be drawn, so nothing is prepared for it
+  BlockHierarchy cull = BlockHierarchy::boxes;  // of an ecosystem
 };
 
 // A picture that is about to be drawn: everything that the application decides.
@@ -39,7 +42,7 @@ struct FramePlan {
   View view;
   int width = 0, height = 0;
   bool tree_visible = true;
-  std::vector<CopyRun> runs;      // of an ecosystem: what is seen
+  ForestFrame forest;             // of an ecosystem
   ShownLevel shown;               // of a tree with levels
   PrunedFoliage::Frame foliage;   // with --lod foliage
   LinesPoints::Frame primitives;  // with --lod lines-points
@@ -47,6 +50,8 @@ struct FramePlan {
   // What was done and what will be drawn, for the statistics.
   std::uint64_t triangles = 0, lines = 0, points = 0;
   std::uint64_t instances_tested = 0, instances_drawn = 0, plane_tests = 0;
+  bool is_forest = false;
+  ForestCounts forest_counts;
 };
 
 class Renderer {
@@ -54,8 +59,9 @@ class Renderer {
   // Uploads the scene, which must outlive the renderer. Needs a current context of GL 3.3 core.
   static Result<std::unique_ptr<Renderer>> make(const Scene& scene, const RenderSettings& settings);
 
-  // `choice`: of a tree with levels, decides on the level.
-  FramePlan plan(const Camera& camera, const Look& look, int width, int height, LevelChoice& choice) const;
+  // `choice`: of a tree with levels, decides on the level. Refused: instances of an ecosystem that turn out
+  // to be damaged when they are first seen.
+  Result<FramePlan> plan(const Camera& camera, const Look& look, int width, int height, LevelChoice& choice);
 
   // Into a framebuffer of the plan's size: 0 is the window.
   Result<void> draw(const FramePlan& plan, GLuint framebuffer);
@@ -65,21 +71,33 @@ class Renderer {
   Image read_picture() const;
 
   int largest_size() const { return largest_size_; }
+  // Of an ecosystem: what of its instances was read so far.
+  StreamCounts read() const { return forest_ ? forest_->read() : StreamCounts{}; }
 
  private:
   struct Tile;
   explicit Renderer(const Scene& scene, const RenderSettings& settings);
   Result<void> make_programs();
   Result<void> make_lights();
+  struct ShadowMap {
+    Mat4 matrix;         // local -> [0, 1]^3
+    Float2 reach{1, 1};  // width and depth, metres
+    Float4 place{1, 1, 0, 0};
+  };
+  Result<void> upload_impostors();
   void draw_shadow_map();
+  Result<void> draw_forest_shadows(const ForestFrame& frame);
+  void begin_shadow(int x, int y, int texels);
+  Result<void> show(const ForestView& view);
   void take_level(const ShownLevel& shown);
-  void plan_ecosystem(const Camera& camera, FramePlan& plan) const;
-  void take_run(const CopyRun& run, const Double3& eye, std::vector<CopyRun>& runs) const;
+  void plan_tree(const Camera& camera, LevelChoice& choice, FramePlan& plan) const;
+  Result<void> plan_forest(FramePlan& plan);
   Result<void> fit_tile_buffers(int width, int height);
   void set_common(const Program& program, const Tile& tile) const;
   void draw_tile(const FramePlan& plan, const Tile& tile);
   void draw_surfaces(const FramePlan& plan, const Tile& tile, float ghost) const;
-  void draw_impostor(const FramePlan& plan, const Tile& tile) const;
+  bool draws_impostors(const FramePlan& plan) const { return plan.shown.impostor || scene_.eco; }
+  float haze_of(const FramePlan& plan) const;
   void draw_backdrop(const FramePlan& plan, const Tile& tile) const;
   SkeletonPass::Frame line_frame(const FramePlan& plan, const Tile& tile) const;
   void draw_primitives(const FramePlan& plan, const Tile& tile);
@@ -94,12 +112,16 @@ class Renderer {
   LodLevel level_;               // what the surfaces and the shadow map hold
   TreeGeometry level_geometry_;  // its indices and ranges
   SurfacePass surfaces_;
-  ImpostorPass impostor_;
+  std::optional<ImpostorPass> impostor_;  // where something has one
   SkeletonPass skeleton_, primitives_;
   Program ground_, backdrop_, resolve_;
   VertexArray no_vertices_;
-  Mat4 shadow_matrix_;  // local -> [0, 1]^3
-  Float2 shadow_reach_{1, 1};
+  std::unique_ptr<ForestPlanner> forest_;
+  std::size_t groups_ = 0;                // of the forest that surfaces_ knows
+  std::vector<std::size_t> impostor_of_;  // of the tree, or of every type, in impostor_; k_none: none
+  std::vector<ShadowMap> shadow_maps_;    // nearest first
+  bool shadow_ends_ = false;              // there are shadows beyond them
+  Framebuffer shadow_framebuffer_;
   Texture2 shadow_texture_, sky_texture_;
   Sampler compare_sampler_, depth_sampler_;
   int tile_width_ = 0, tile_height_ = 0;  // in fragments

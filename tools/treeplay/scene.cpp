@@ -20,10 +20,11 @@ DoubleBox Scene::bounds() const {
 }
 
 std::uint64_t Scene::triangles() const {
-  std::uint64_t sum = 0;
-  for (const DrawGroup& group : groups)
-    for (std::uint32_t r = 0; r < group.range_count; ++r)
-      sum += std::uint64_t{geometry.ranges[group.first_range + r].index_count} / 3 * group.instance_count;
+  if (!eco) return geometry.indices.size() / 3;
+  std::uint64_t sum = forest.ground.triangles();
+  for (std::size_t t = 0; t < forest.types.size(); ++t)
+    for (const DrawRange& range : forest.types[t].levels[0])
+      sum += std::uint64_t{range.index_count} / 3 * eco->types[t].instances;
   return sum;
 }
 
@@ -38,11 +39,6 @@ std::vector<Float3> Scene::outline() const {
   for (int c = 0; c < 8 && !b.empty(); ++c)
     points.push_back({c & 1 ? b.max.x : b.min.x, c & 2 ? b.max.y : b.min.y, c & 4 ? b.max.z : b.min.z});
   return points;
-}
-
-Float3 moved(const DrawCopy& copy, const Float3& p) {
-  const auto row = [&](const Float4& r) { return r.x * p.x + r.y * p.y + r.z * p.z + r.w; };
-  return {row(copy.rows[0]), row(copy.rows[1]), row(copy.rows[2])};
 }
 
 double Scene::size() const {
@@ -185,12 +181,10 @@ Result<void> take_mesh(Scene& scene, const fs::path& path, Context& context) {
 
 Result<void> take(Scene& scene, const fs::path& path, const Wanted& wanted, Context& context) {
   if (extension_of(path) == ".eco") return take_ecosystem(scene, path, wanted.levels, context);
+  Stage stage = context.stage("load");
   const auto taken =
       is_tree_file(path) ? take_tree(scene, path, wanted, context) : take_mesh(scene, path, context);
-  scene.copies.resize(1);
-  scene.groups = {{.range_count = static_cast<std::uint32_t>(scene.geometry.ranges.size()),
-                   .instance_count = 1,
-                   .triangles = scene.geometry.indices.size() / 3}};
+  stage.items(scene.triangles(), "triangles");
   return taken;
 }
 
@@ -215,12 +209,7 @@ std::optional<Image> read_texture(const Texture& texture, std::size_t index, con
 Result<Scene> load_scene(const fs::path& path, bool lights, const Wanted& wanted, Context& context) {
   Scene scene;
   scene.name = path.filename().string();
-  {
-    Stage stage = context.stage("load");
-    auto taken = take(scene, path, wanted, context);
-    if (!taken) return std::unexpected(taken.error());
-    stage.items(scene.triangles(), "triangles");
-  }
+  if (auto taken = take(scene, path, wanted, context); !taken) return std::unexpected(taken.error());
   scene.ground = ground_under(scene.bounds());
   if (!lights) return scene;
   Stage stage = context.stage("sky light");

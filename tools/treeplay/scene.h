@@ -9,6 +9,7 @@
 #include "lib/runtime/sky_light.h"
 #include "lib/runtime/tree_geometry.h"
 #include "tools/common/tool.h"
+#include "tools/treeplay/forest.h"
 #include "tools/treeplay/lines_points.h"
 #include "tools/treeplay/pruned_foliage.h"
 #include "tools/treeplay/tree_levels.h"
@@ -22,38 +23,12 @@
 
 namespace copse::treeplay {
 
-// One instance as a GPU takes it: the rows of a 3 x 4 matrix from the tree's frame to the scene's, and a
-// tint.
-struct DrawCopy {
-  std::array<Float4, 3> rows{Float4{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
-  std::array<std::uint8_t, 4> tint{255, 255, 255, 255};  // sRGB
-};
-Float3 moved(const DrawCopy& copy, const Float3& p);
-
-// Ranges of the geometry that are drawn once for each of a run of copies.
-struct DrawGroup {
-  std::uint32_t first_range = 0, range_count = 0;
-  std::uint32_t first_copy = 0, instance_count = 0;
-  std::uint64_t triangles = 0;  // of one copy
-  // Of an ecosystem: so many groups behind it draw the same copies at coarser levels, from these distances
-  // on (metres, of a tree at scale 1; ascending). Those have no copies of their own.
-  std::vector<float> coarser{};
-};
-
-// Copies of one group that stand in one block of an ecosystem.
-struct CopyRun {
-  std::uint32_t group = 0, first = 0, count = 0;
-};
-
 struct Scene {
   std::string name;  // of the file, without its folder
   bool is_tree = false;
   TreeGeometry geometry;
-  std::vector<DrawGroup> groups;  // at least one; of an ecosystem the first is its terrain
-  std::vector<DrawCopy> copies;   // group after group
   std::optional<Ecosystem> eco;
-  std::vector<CopyRun> runs;                 // of an ecosystem, block after block
-  std::vector<std::uint32_t> first_run;      // blocks + 1
+  Forest forest;                             // of an ecosystem: its trees and its ground in `geometry`
   std::shared_ptr<const TreeLevels> levels;  // of a tree that has them, when they were asked for
   std::optional<LinesPoints> lines_points;   // of a tree, when they were asked for
   std::optional<PrunedFoliage> foliage;      // of a tree with foliage cells, when they were asked for

@@ -8,8 +8,8 @@
 
 namespace copse::treeplay::shaders {
 
-// Put in front of every fragment shader: hash, tone curve, sky, sunlight through the shadow map, light of the
-// sky grid.
+// Put in front of every fragment shader: hash, tone curve, sky, sunlight through the shadow maps, light of
+// the sky grid, haze.
 extern const std::string_view k_common;
 
 extern const std::string_view k_surface_vertex;
@@ -19,7 +19,12 @@ extern const std::string_view k_shadow_vertex;
 extern const std::string_view k_shadow_fragment;
 
 extern const std::string_view k_impostor_vertex;
-extern const std::string_view k_impostor_fragment;
+extern const std::string_view k_impostor_common;  // in front of the two below, behind k_common
+extern const std::string_view k_impostor_coverage_fragment;
+extern const std::string_view k_impostor_light_fragment;
+extern const std::string_view k_picture_vertex;
+extern const std::string_view k_picture_coverage_fragment;  // casts shadows as well
+extern const std::string_view k_picture_light_fragment;
 
 extern const std::string_view k_line_vertex;
 extern const std::string_view k_line_fragment;

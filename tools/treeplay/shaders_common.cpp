@@ -8,8 +8,13 @@ const float k_pi = 3.14159265;
 uniform vec3 sun_direction;         // towards the sun
 uniform sampler2DShadow shadow_map; // compares
 uniform sampler2D shadow_depth;     // the same texture, as depths
-uniform mat4 shadow_matrix;         // local -> [0, 1]^3
-uniform vec2 shadow_reach;          // width of the map and depth of its box, m
+// One shadow map for what is near, others for what is farther, side by side in one texture.
+const int k_most_shadows = 4;
+uniform int shadow_count;
+uniform mat4 shadow_matrix[k_most_shadows];  // local -> [0, 1]^3 of a map
+uniform vec2 shadow_reach[k_most_shadows];   // width of the map and depth of its box, m
+uniform vec4 shadow_place[k_most_shadows];   // of the map in the texture: scale, then corner
+uniform bool shadow_ends;                    // beyond the last map are shadows that no map holds
 uniform sampler3D sky_grid;
 uniform vec3 sky_corner, sky_extent;
 uniform vec2 tile_corner;           // of this tile in the whole image, in fragments
@@ -17,6 +22,7 @@ uniform vec2 tile_corner;           // of this tile in the whole image, in fragm
 const vec3 k_sun_colour = vec3(1.0, 0.89, 0.72) * 2.75;
 const vec3 k_sky_colour = vec3(0.56, 0.70, 0.95) * 0.95;  // what an upright white surface gets from an open sky
 const vec3 k_ground_colour = vec3(0.098, 0.122, 0.044);
+const float k_thin = 0.7;           // of a picture of a tree: it does not say which is bark and which are leaves
 const float k_sun_spread = 0.011;   // tangent of half the sun's angle; about twice the real sun's
 
 uint hash(uint x) {
@@ -68,28 +74,55 @@ vec2 disc_point(int i, int n, float turn) {
   return r * vec2(cos(a), sin(a));
 }
 
-// The share of the sun that reaches a point: sharp where the shadow is cast from near, soft from afar.
-float sunlight(vec3 local, vec3 normal) {
-  float texel = shadow_reach.x / float(textureSize(shadow_depth, 0).x);
+// The share of the sun that reaches a point: sharp where the shadow is cast from near, soft from afar. It is read
+// in the first map that holds the point. `far`: what takes its place where maps end.
+float sunlight(vec3 local, vec3 normal, float far) {
   float grazing = 1.0 - abs(dot(normal, sun_direction));
-  vec3 p = (shadow_matrix * vec4(local + normal * texel * (1.0 + 2.0 * grazing), 1.0)).xyz;
-  if (any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)))) return 1.0;
-  float bias = texel / shadow_reach.y;
+  float size = float(textureSize(shadow_depth, 0).x);
+  // Software renderers go through all of a loop for every fragment, so nothing is read in this one.
+  int map = shadow_count;
+  vec3 p = vec3(0.0);
+  vec2 reach = vec2(1.0);
+  vec4 place = vec4(1.0, 1.0, 0.0, 0.0);
+  float texel = 1.0;
+  for (int i = shadow_count - 1; i >= 0; --i) {
+    float t = shadow_reach[i].x / (size * shadow_place[i].x);
+    vec3 q = (shadow_matrix[i] * vec4(local + normal * t * (1.0 + 2.0 * grazing), 1.0)).xyz;
+    float border = shadow_count > 1 ? 2.0 * t / shadow_reach[i].x : 0.0;
+    if (any(lessThan(q, vec3(border, border, 0.0))) || any(greaterThan(q, vec3(1.0 - border, 1.0 - border, 1.0)))) continue;
+    map = i;
+    p = q;
+    reach = shadow_reach[i];
+    place = shadow_place[i];
+    texel = t;
+  }
+  // Half a texel inside its own map, whatever is beside it.
+  float edge = 0.5 * texel / reach.x;
+  float bias = texel / reach.y;
   float turn = 2.0 * k_pi * random(pixel());
-  float widest = k_sun_spread * p.z * shadow_reach.y / shadow_reach.x;
+  // Where a texel is as wide as a penumbra there is none to look for.
+  int searches = map < 2 ? 8 : 0, taps = map < 2 ? 12 : 5;
+  float widest = k_sun_spread * p.z * reach.y / reach.x;
+  if (shadow_count > 1) widest = min(widest, 0.02);  // a map may be narrower than its box is deep
   float blockers = 0.0, depth = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    float d = textureLod(shadow_depth, p.xy + widest * disc_point(i, 8, turn), 0.0).r;
+  for (int k = 0; k < searches; ++k) {
+    vec2 at = clamp(p.xy + widest * disc_point(k, 8, turn), edge, 1.0 - edge);
+    float d = textureLod(shadow_depth, at * place.xy + place.zw, 0.0).r;
     if (d < p.z - bias) { blockers += 1.0; depth += d; }
   }
   float gap = blockers > 0.0 ? p.z - depth / blockers : 0.0;
-  float wide = k_sun_spread * gap * shadow_reach.y / shadow_reach.x;
-  wide = clamp(wide, 1.3 * texel / shadow_reach.x, widest + 2.0 * texel / shadow_reach.x);
+  float wide = k_sun_spread * gap * reach.y / reach.x;
+  wide = clamp(wide, 1.3 * texel / reach.x, widest + 2.0 * texel / reach.x);
   float lit = 0.0;
-  for (int i = 0; i < 12; ++i) {
-    lit += textureLod(shadow_map, vec3(p.xy + wide * disc_point(i, 12, turn + 1.0), p.z - bias), 0.0);
+  for (int k = 0; k < taps; ++k) {
+    vec2 at = clamp(p.xy + wide * disc_point(k, taps, turn + 1.0), edge, 1.0 - edge);
+    lit += textureLod(shadow_map, vec3(at * place.xy + place.zw, p.z - bias), 0.0);
   }
-  return lit / 12.0;
+  lit /= float(taps);
+  if (map == shadow_count) return shadow_ends ? far : 1.0;
+  if (!shadow_ends || map + 1 < shadow_count) return lit;
+  vec2 out_by = abs(p.xy * 2.0 - 1.0);
+  return mix(lit, far, smoothstep(0.75, 1.0, max(out_by.x, out_by.y)));
 }
 
 // What the sky sends to a surface here: (x, y, z, w) of SkyLight, faded to the open sky at the grid's border.
@@ -101,12 +134,22 @@ vec4 sky_at(vec3 local) {
 }
 float skylight(vec4 sky_here, vec3 normal) { return max(0.0, sky_here.w + dot(sky_here.xyz, normal)); }
 
+// What a mean shadow leaves of the sun where the sky is seen so much.
+float sun_by_sky(vec4 sky_here) { return clamp(2.0 * sky_here.w, 0.0, 1.0); }
+
+// haze_distance: metres at which haze has two thirds of what is seen; 0: there is none.
+vec3 hazed(vec3 c, vec3 relative, float haze_distance) {
+  if (haze_distance <= 0.0) return c;
+  float haze = 1.0 - exp(-pow(length(relative) / haze_distance, 1.5));
+  return mix(c, sky(normalize(vec3(relative.x, 0.0, relative.z))), haze);
+}
+
 // What a surface at `local` sends towards `view`, without gloss. thin: 1 for leaves, light shines through. `sun`
 // is the share of it that arrives.
 vec3 light_on(vec3 albedo, vec3 local, vec3 view, vec3 n, float thin, out float sun) {
   float facing = dot(n, sun_direction);
-  sun = sunlight(local, facing < 0.0 ? -n : n);
   vec4 here = sky_at(local);
+  sun = sunlight(local, facing < 0.0 ? -n : n, sun_by_sky(here));
   float front = max(facing, 0.0), back = max(-facing, 0.0);
   float from_sky = mix(skylight(here, n), 0.55 * skylight(here, n) + 0.45 * skylight(here, -n) + 0.06, thin);
   float from_ground = (0.5 - 0.5 * mix(n.y, 0.0, 0.5 * thin)) * min(1.0, 2.2 * here.w);
@@ -155,7 +198,7 @@ void main() {
   albedo = mix(albedo, albedo * vec3(1.34, 1.06, 0.80), 0.8 * smoothstep(-0.6, 1.0, patches + 0.8 * grain));
   if (studio) albedo = vec3(0.62);
   const vec3 k_up = vec3(0.0, 1.0, 0.0);
-  float sun = sunlight(v_local, k_up) * max(sun_direction.y, 0.0);
+  float sun = sunlight(v_local, k_up, 1.0) * max(sun_direction.y, 0.0);
   vec4 here = sky_at(vec3(v_local.x, v_local.y + 0.02 * ground_scale, v_local.z));
   vec3 lit = albedo * (k_sun_colour * sun + k_sky_colour * skylight(here, k_up));
   if (studio) {

@@ -91,13 +91,7 @@ void main() {
   if (ground) albedo = soil(albedo);
   vec3 c = albedo + emission;
   if (lit) {
-    c = shade(albedo) + emission;
-    vec3 relative = v_local + offset;
-    if (haze_distance > 0.0) {
-      float haze = 1.0 - exp(-pow(length(relative) / haze_distance, 1.5));
-      c = mix(c, sky(normalize(vec3(relative.x, 0.0, relative.z))), haze);
-    }
-    c = tone(c);
+    c = tone(hazed(shade(albedo) + emission, v_local + offset, haze_distance));
   }
   c = clamp(c, 0.0, 1.0);
   colour = vec4(mix(c, vec3(0.86), ghost), 1.0);

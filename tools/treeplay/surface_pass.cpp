@@ -8,8 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <utility>
 
 namespace copse::treeplay {
 
@@ -100,30 +98,24 @@ Result<void> SurfacePass::upload(const Scene& scene) {
   attribute(2, 2, offsetof(DrawVertex, texcoord));
 
   copies_ = make_buffer();
-  glBindBuffer(GL_ARRAY_BUFFER, copies_.get());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.copies.size() * sizeof(DrawCopy)),
-               scene.copies.data(), GL_DYNAMIC_DRAW);
+  ground_indices_ = make_buffer();
   for (GLuint index = 3; index <= 6; ++index) {
     glEnableVertexAttribArray(index);
     glVertexAttribDivisor(index, 1);
   }
-  for (const DrawGroup& group : scene.groups)
-    shown_.push_back({static_cast<GLsizei>(group.instance_count), group.first_copy});
+  if (!scene.eco) {
+    add_group(scene, g.ranges);
+    show({{DrawCopy{}}}, {});
+  }
+  return check_gl("uploading the model");
+}
 
-  // A texture's mip levels depend on the alpha cutoff, so a pair of both is an image.
-  std::map<std::pair<std::uint32_t, float>, std::size_t> uploaded;
-  std::vector<std::uint32_t> group_of(g.ranges.size());
-  std::vector<bool> drawn(g.ranges.size());
-  for (std::uint32_t i = 0; i < scene.groups.size(); ++i)
-    for (std::uint32_t k = 0; k < scene.groups[i].range_count; ++k) {
-      group_of[scene.groups[i].first_range + k] = i;
-      drawn[scene.groups[i].first_range + k] = true;
-    }
-  for (std::size_t n = 0; n < g.ranges.size(); ++n) {
-    if (!drawn[n]) continue;
-    const DrawRange& range = g.ranges[n];
+std::uint32_t SurfacePass::add_group(const Scene& scene, std::span<const DrawRange> ranges) {
+  const auto group = static_cast<std::uint32_t>(shown_.size());
+  shown_.emplace_back();
+  for (const DrawRange& range : ranges) {
     Range r;
-    r.group = group_of[n];
+    r.group = group;
     r.ground = range.part == DrawPart::ground;
     r.count = static_cast<GLsizei>(range.index_count);
     r.first =
@@ -131,9 +123,9 @@ Result<void> SurfacePass::upload(const Scene& scene) {
     r.material = material_of(scene, range);
     const bool cut_out = r.material.alpha_cutoff > 0;
     r.thin = range.part == DrawPart::leaves || (range.part == DrawPart::mesh && cut_out) ? 1.0f : 0.0f;
-    r.repeats = leaves_unit_square(g, range);
+    r.repeats = r.ground || leaves_unit_square(scene.geometry, range);
     const std::uint32_t t = r.material.texture;
-    const auto [known, is_new] = uploaded.try_emplace({t, r.material.alpha_cutoff}, 0);
+    const auto [known, is_new] = uploaded_.try_emplace({t, r.material.alpha_cutoff}, 0);
     if (t < scene.images.size() && scene.images[t]) {
       if (is_new) known->second = upload_image(*scene.images[t], r.material.alpha_cutoff);
       r.image = known->second;
@@ -142,7 +134,7 @@ Result<void> SurfacePass::upload(const Scene& scene) {
     }
     ranges_.push_back(std::move(r));
   }
-  return check_gl("uploading the model");
+  return group;
 }
 
 void SurfacePass::replace(const std::vector<std::uint32_t>& indices, const std::vector<DrawRange>& ranges) {
@@ -174,26 +166,25 @@ void SurfacePass::point_at(std::size_t first_copy) const {
                         reinterpret_cast<const void*>(base + offsetof(DrawCopy, tint)));  // NOLINT
 }
 
-void SurfacePass::show(const Scene& scene, const std::vector<CopyRun>& runs) {
-  std::vector<std::size_t> next(scene.groups.size());
-  for (Shown& s : shown_) s.count = 0;
-  shown_[0].count = 1;  // the terrain
-  for (const CopyRun& run : runs) shown_[run.group].count += static_cast<GLsizei>(run.count);
-  std::size_t total = 0;
+void SurfacePass::show(const std::vector<std::vector<DrawCopy>>& copies,
+                       const std::vector<std::uint32_t>& ground) {
+  gathered_.clear();
   for (std::size_t i = 0; i < shown_.size(); ++i) {
-    shown_[i].first = next[i] = total;
-    total += static_cast<std::size_t>(shown_[i].count);
-  }
-  gathered_.resize(total);
-  gathered_[0] = scene.copies[0];
-  for (const CopyRun& run : runs) {
-    std::copy_n(scene.copies.begin() + run.first, run.count,
-                gathered_.begin() + static_cast<std::ptrdiff_t>(next[run.group]));
-    next[run.group] += run.count;
+    const std::size_t count = i < copies.size() ? copies[i].size() : 0;
+    shown_[i] = {static_cast<GLsizei>(count), gathered_.size()};
+    if (count > 0) gathered_.insert(gathered_.end(), copies[i].begin(), copies[i].end());
   }
   glBindBuffer(GL_ARRAY_BUFFER, copies_.get());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(total * sizeof(DrawCopy)), gathered_.data(),
-               GL_DYNAMIC_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(gathered_.size() * sizeof(DrawCopy)),
+               gathered_.data(), GL_DYNAMIC_DRAW);
+  ground_count_ = static_cast<GLsizei>(ground.size());
+  if (ground.empty()) return;
+  // An index buffer is bound to a vertex array.
+  glBindVertexArray(array_.get());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, ground_indices_.get());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(ground.size() * sizeof(std::uint32_t)),
+               ground.data(), GL_DYNAMIC_DRAW);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
 }
 
 void SurfacePass::draw(const Program& program, bool with_light) const {
@@ -218,7 +209,10 @@ void SurfacePass::draw(const Program& program, bool with_light) const {
       program.set("cutoff", r.material.alpha_cutoff);
       program.set("opacity", r.material.alpha);
     }
-    glDrawElementsInstanced(GL_TRIANGLES, r.count, GL_UNSIGNED_INT, r.first, shown.count);
+    if (r.ground) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, ground_indices_.get());
+    glDrawElementsInstanced(GL_TRIANGLES, r.ground ? ground_count_ : r.count, GL_UNSIGNED_INT, r.first,
+                            shown.count);
+    if (r.ground) glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
   }
   glBindSampler(0, 0);
 }

@@ -1,9 +1,13 @@
-// Draws the triangles of a scene: the shadow map once, then for every frame depth and coverage, then light.
+// Draws the triangles of a scene: shadow maps, then for every frame depth and coverage, then light.
 #pragma once
 
 #include "tools/treeplay/gl.h"
 #include "tools/treeplay/scene.h"
 
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace copse::treeplay {
@@ -11,7 +15,12 @@ namespace copse::treeplay {
 class SurfacePass {
  public:
   static Result<SurfacePass> make();
+  // The scene's vertices and indices. A tree or a mesh is one group, shown once where it stands; the groups
+  // of an ecosystem are added one by one.
   Result<void> upload(const Scene& scene);
+
+  // Ranges that are drawn together, once for each copy that is shown; answers the group's number, from 0.
+  std::uint32_t add_group(const Scene& scene, std::span<const DrawRange> ranges);
 
   // Other triangles of the same vertices: ranges as many as the scene's, in its order.
   void replace(const std::vector<std::uint32_t>& indices, const std::vector<DrawRange>& ranges);
@@ -19,8 +28,9 @@ class SurfacePass {
   // The last vertices of the scene, from `first` on, moved.
   void replace(std::size_t first, const std::vector<DrawVertex>& vertices);
 
-  // The runs of copies that the next draws show: everything until it is called. Uploads them.
-  void show(const Scene& scene, const std::vector<CopyRun>& runs);
+  // The copies of every group, by its number, that the next draws show (groups behind the last: none), and
+  // the triangles of ranges of the part `ground`. Uploads them.
+  void show(const std::vector<std::vector<DrawCopy>>& copies, const std::vector<std::uint32_t>& ground);
 
   // Into the bound depth-only framebuffer.
   void draw_shadow(const Mat4& clip) const;
@@ -53,10 +63,13 @@ class SurfacePass {
     std::size_t first = 0;
   };
   void point_at(std::size_t first_copy) const;
-  Buffer vertices_, indices_, copies_;
+  Buffer vertices_, indices_, copies_, ground_indices_;
+  GLsizei ground_count_ = 0;
   std::vector<Shown> shown_;        // one a group
   std::vector<DrawCopy> gathered_;  // of show(), kept for its memory
   std::vector<Texture2> images_;
+  // A texture's mip levels depend on the alpha cutoff, so a pair of both is an image.
+  std::map<std::pair<std::uint32_t, float>, std::size_t> uploaded_;
   Sampler repeating_, clamping_;
   std::vector<Range> ranges_;
 };

@@ -227,7 +227,9 @@ Result<void> Viewer::draw(Overlay& overlay, std::uint64_t frame, Statistics& sta
     playing_ = fit_wanted_ = false;
   }
   if (playing_) orbit_.look(camera(frame));  // a touch of the mouse goes on from here
-  const FramePlan plan = renderer_->plan(camera(frame), look_, width, height, choice_);
+  const auto planned = renderer_->plan(camera(frame), look_, width, height, choice_);
+  if (!planned) return std::unexpected(planned.error());
+  const FramePlan& plan = *planned;
   const auto decided = Clock::now();
   if (auto done = renderer_->draw(plan, 0); !done) return done;
   glFinish();
@@ -266,6 +268,7 @@ Result<void> Viewer::run(Statistics& statistics, Context& context) {
     if (++frame == exit_after_) break;
   }
   stage.items(frame, "frames");
+  statistics.read(renderer_->read());
   return {};
 }
 

@@ -1,0 +1,132 @@
+#include "tools/treeplay/forest.h"
+
+#include <algorithm>
+
+namespace copse::treeplay {
+
+namespace {
+
+// Times the terrain's own size; beyond the last one all is haze.
+constexpr std::array<double, 7> k_surroundings{1.02, 1.1, 1.4, 2.5, 6, 18, 60};
+
+// `p` as vertices are: relative to the origin.
+Float2 texcoord(const Double3& p, const Double3& origin, const Terrain& terrain) {
+  const double size = double{terrain.texture_size};
+  return {static_cast<float>((p.x + origin.x) / size), static_cast<float>(-(p.z + origin.z) / size)};
+}
+
+// Of every vertex, from the triangles round it; they point up.
+std::vector<Double3> normals_of(const Terrain& t) {
+  std::vector<Double3> normals(t.vertex_count());
+  for (std::uint32_t r = 0; r + 1 < t.rows; ++r)
+    for (std::uint32_t c = 0; c + 1 < t.columns; ++c) {
+      const std::uint32_t a = r * t.columns + c, b = a + 1, d = a + t.columns, e = d + 1;
+      const Double3 pa = t.vertex(c, r), pb = t.vertex(c + 1, r), pd = t.vertex(c, r + 1),
+                    pe = t.vertex(c + 1, r + 1);
+      const Double3 lower = cross(pd - pa, pe - pa), upper = cross(pe - pa, pb - pa);
+      for (const std::uint32_t i : {a, d, e}) normals[i] += lower;
+      for (const std::uint32_t i : {a, e, b}) normals[i] += upper;
+    }
+  for (Double3& n : normals) {
+    n = normalized(n);
+    if (n.y < 0) n = -n;
+  }
+  return normals;
+}
+
+}  // namespace
+
+Float3 moved(const DrawCopy& copy, const Float3& p) {
+  const auto row = [&](const Float4& r) { return r.x * p.x + r.y * p.y + r.z * p.z + r.w; };
+  return {row(copy.rows[0]), row(copy.rows[1]), row(copy.rows[2])};
+}
+
+std::optional<double> ground_height(const Terrain& t, double x, double z) {
+  if (t.columns == 0 || !t.regular()) return std::nullopt;
+  const double u = std::clamp((x - t.origin.x) / t.spacing_x, 0.0, t.columns - 1.0),
+               v = std::clamp((z - t.origin.z) / t.spacing_z, 0.0, t.rows - 1.0);
+  const auto c = std::min(static_cast<std::uint32_t>(u), t.columns - 2),
+             r = std::min(static_cast<std::uint32_t>(v), t.rows - 2);
+  const double i = u - c, k = v - r;
+  const double a = t.vertex(c, r).y, b = t.vertex(c + 1, r).y, d = t.vertex(c, r + 1).y,
+               e = t.vertex(c + 1, r + 1).y;
+  return i >= k ? a * (1 - i) + b * (i - k) + e * k : a * (1 - k) + d * (k - i) + e * i;
+}
+
+ForestGround::ForestGround(const Terrain& terrain, const Double3& origin, TreeGeometry& geometry)
+    : tiles_(terrain),
+      columns_(terrain.columns),
+      rows_(terrain.rows),
+      material_(terrain.material),
+      first_(static_cast<std::uint32_t>(geometry.vertices.size())) {
+  if (empty()) return;
+  const std::vector<Double3> normals = normals_of(terrain);
+  geometry.vertices.reserve(geometry.vertices.size() + terrain.vertex_count());
+  for (std::uint32_t r = 0; r < rows_; ++r)
+    for (std::uint32_t c = 0; c < columns_; ++c) {
+      const Double3 p = terrain.vertex(c, r) - origin;
+      geometry.vertices.push_back(
+          {to_float(p), to_float(normals[std::size_t{r} * columns_ + c]), texcoord(p, origin, terrain)});
+    }
+  first_ring_ = static_cast<std::uint32_t>(geometry.vertices.size());
+  add_surroundings(geometry, terrain);
+}
+
+std::uint64_t ForestGround::triangles() const {
+  return empty() ? 0 : 2 * std::uint64_t{columns_ - 1} * (rows_ - 1);
+}
+
+// Every vertex of the border, once round, in the order of TerrainTiles::append_border.
+std::vector<std::uint32_t> ForestGround::whole_border() const {
+  std::vector<std::uint32_t> ring;
+  for (std::uint32_t c = 0; c + 1 < columns_; ++c) ring.push_back(c);
+  for (std::uint32_t r = 0; r + 1 < rows_; ++r) ring.push_back(r * columns_ + columns_ - 1);
+  for (std::uint32_t c = columns_ - 1; c > 0; --c) ring.push_back((rows_ - 1) * columns_ + c);
+  for (std::uint32_t r = rows_ - 1; r > 0; --r) ring.push_back(r * columns_);
+  return ring;
+}
+
+// Its number in that order.
+std::uint32_t ForestGround::place_on_border(std::uint32_t vertex) const {
+  const std::uint32_t c = vertex % columns_, r = vertex / columns_, w = columns_ - 1, h = rows_ - 1;
+  if (r == 0) return c;
+  if (c == w) return w + r;
+  return r == h ? w + h + (w - c) : 2 * w + h + (h - r);
+}
+
+void ForestGround::add_surroundings(TreeGeometry& geometry, const Terrain& terrain) {
+  const std::vector<std::uint32_t> ring = whole_border();
+  Double3 middle;
+  for (const std::uint32_t i : ring)
+    middle += to_double(geometry.vertices[first_ + i].position) / static_cast<double>(ring.size());
+  for (const double factor : k_surroundings)
+    for (const std::uint32_t i : ring) {
+      const Double3 p = to_double(geometry.vertices[first_ + i].position),
+                    out = middle + (p - middle) * factor;
+      // Half as high above the middle at twice the distance, and so on.
+      const Double3 at{out.x, middle.y + (p.y - middle.y) / (factor * factor), out.z};
+      geometry.vertices.push_back({to_float(at), {0, 1, 0}, texcoord(at, geometry.origin, terrain)});
+    }
+}
+
+void ForestGround::append(const Frustum& frustum, const Double3& eye,
+                          std::vector<std::uint32_t>& indices) const {
+  if (empty()) return;
+  const std::size_t begin = indices.size();
+  tiles_.append(frustum, eye, indices);
+  for (std::size_t i = begin; i < indices.size(); ++i) indices[i] += first_;
+  std::vector<std::uint32_t> border;
+  tiles_.append_border(border);
+  const std::uint32_t ring = 2 * (columns_ - 1 + rows_ - 1);
+  for (std::uint32_t k = 0; k < k_surroundings.size(); ++k)
+    for (std::size_t i = 0; i < border.size(); ++i) {
+      const std::uint32_t here = border[i], next = border[(i + 1) % border.size()];
+      const auto outer = [&](std::uint32_t v) { return first_ring_ + k * ring + place_on_border(v); };
+      const auto inner = [&](std::uint32_t v) { return k == 0 ? first_ + v : outer(v) - ring; };
+      for (const std::uint32_t v :
+           {inner(here), inner(next), outer(next), inner(here), outer(next), outer(here)})
+        indices.push_back(v);
+    }
+}
+
+}  // namespace copse::treeplay
