@@ -1,6 +1,6 @@
 // Leaves at a tenth, a fiftieth, ... of their triangles: what leaf collapse and its peers keep of them.
 //
-//   bench_lod_leaves [--views N] [--ratio R] [--quality balanced|exact] [--no-peers] [--projections]
+//   bench_lod_leaves [--views N] [--ratio R] [--quality fast|balanced|exact] [--no-peers] [--projections]
 //   TREE...      .tree or .stree files that hold leaves
 //
 // Each ratio of triangles at the size in pixels at which it would be shown; times are of all threads
@@ -135,6 +135,7 @@ void bench(const std::filesystem::path& path, const Options& options) {
 }
 
 CollapseQuality quality_of(const std::string& name) {
+  if (name == "fast") return CollapseQuality::fast;
   return name == "exact" ? CollapseQuality::exact : CollapseQuality::balanced;
 }
 

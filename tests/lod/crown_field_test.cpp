@@ -74,6 +74,15 @@ TEST(CrownField, BringsPointsBackIntoTheHull) {
   EXPECT_NEAR(field.width(), std::sqrt(3.0), 0.15);
 }
 
+TEST(CrownField, WhatIsSurroundedIsInsideTheHull) {
+  const CrownField field(filled_cube(16, 0.1), 16);
+  EXPECT_TRUE(field.surrounded({0.5, 0.5, 0.5}));
+  EXPECT_FALSE(field.surrounded({0.5, 0.5, 0.999}));
+  EXPECT_FALSE(field.surrounded({0.5, 0.5, 2}));
+  const Double3 inside{0.5, 0.4, 0.6};
+  EXPECT_EQ(field.excess(std::span(&inside, 1)), 0);
+}
+
 TEST(CrownField, OfNothingOrOfOnePlaceIsDefined) {
   const CrownField none({}, 8);
   EXPECT_EQ(none.cross_section(), 0);

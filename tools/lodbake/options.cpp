@@ -119,6 +119,14 @@ void add_options(CLI::App& app, Options& options) {
       "leaves become one bigger, two at a time, or vanish in stratified random order, cell by cell",
       {{"collapse", FoliageMethod::collapse}, {"prune", FoliageMethod::prune}})
       ->type_name("collapse|prune");
+  add_choice<CollapseQuality>(
+      *methods, "--quality", options.quality,
+      "of --foliage collapse; fast: closed forms; balanced: pictures decide, seen at some points; exact: all "
+      "of their pixels, and more candidates",
+      {{"fast", CollapseQuality::fast},
+       {"balanced", CollapseQuality::balanced},
+       {"exact", CollapseQuality::exact}})
+      ->type_name("fast|balanced|exact");
   methods
       ->add_option(
           "--cells", options.cells,

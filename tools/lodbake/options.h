@@ -1,6 +1,7 @@
 // The command line of lodbake.
 #pragma once
 
+#include "lib/analysis/lod/leaf_collapse.h"
 #include "lib/analysis/lod/limb_ladder.h"
 #include "lib/formats/impostors.h"
 #include "lib/formats/result.h"
@@ -30,7 +31,8 @@ struct Options {
   TrunkMethod trunk = TrunkMethod::radii;
   RemovalOrder removal = RemovalOrder::silhouette;
   FoliageMethod foliage = FoliageMethod::collapse;
-  std::uint32_t cells = 256;  // of --foliage prune, at most
+  CollapseQuality quality = CollapseQuality::balanced;  // of --foliage collapse
+  std::uint32_t cells = 256;                            // of --foliage prune, at most
   bool lines_points = false;
   int impostor = 0;  // pixels of a view's side; 0: none
   int impostor_views = 8;

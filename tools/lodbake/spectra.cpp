@@ -38,7 +38,7 @@ Spectrum leaf_spectrum(const Tree& tree, const Looks& looks, const Options& opti
   Stage stage = context.stage("leaves");
   stage.items(tree.leaves.triangles.size(), "triangles");
   if (options.foliage == FoliageMethod::collapse || tree.leaves.triangles.empty())
-    return collapse_spectrum(tree, looks);
+    return collapse_spectrum(tree, looks, {.quality = options.quality});
   cells = prune_foliage(tree, looks,
                         {.cells = options.cells,
                          .views = options.views,

@@ -1,6 +1,7 @@
 #include "lib/analysis/lod/leaf_collapse.h"
 
 #include "lib/analysis/lod/crown_field.h"
+#include "lib/analysis/lod/leaf_agglomeration.h"
 #include "lib/analysis/lod/leaf_elements.h"
 #include "lib/analysis/lod/leaf_matching.h"
 #include "lib/analysis/lod/leaf_pieces.h"
@@ -20,7 +21,7 @@ namespace {
 
 using Face = DrawnLeaf::Face;
 
-constexpr double k_prior = 20;      // pixels that the field's word on a leaf is worth
+constexpr double k_prior = 40;      // pixels that the field's word on a leaf is worth
 constexpr double k_good = 0.1;      // pixels of change in all views: no better successor is looked for
 constexpr double k_layers = 7;      // of leaves, behind which nothing is seen whichever way it lies
 constexpr double k_seen = 0.001;    // of its pixels, what a core may change in the picture when it grows
@@ -37,7 +38,7 @@ struct Effort {
 };
 
 Effort effort_of(CollapseQuality quality) {
-  return quality == CollapseQuality::exact ? Effort{5, 0.12, 1.6, 4, true} : Effort{3, 0.25, 1.6, 2, false};
+  return quality == CollapseQuality::exact ? Effort{5, 0.12, 1.6, 4, true} : Effort{3, 0.25, 1.6, 1, false};
 }
 
 int cells_for(std::size_t triangles) {
@@ -180,7 +181,7 @@ class Collapse {
     if (views_ && !(pixel > effort_.sharper * asked_)) return;
     asked_ = std::isfinite(pixel) ? pixel : 0;
     // Of very many leaves each matters less.
-    const int views = effort_.every_pixel || alive_.size() < 2000 ? LeafViews::k_most_views : 6;
+    const int views = effort_.every_pixel || alive_.size() < 1000 ? LeafViews::k_most_views : 6;
     views_.emplace(offset_, 0.55 * length(box_.extent()), asked_, turns_++, views);
     views_->set_source(source_);
   }
@@ -465,22 +466,15 @@ class Collapse {
     options.card = pieces_.list[look.piece].cut == LeafCut::card;
     options.textured = pieces_.list[look.piece].card;
     const LeafShape shape = leaf_shape(sum, &field_, offset_, options);
-    Successor out;
     const bool agree = dot(sum.shading, sum.shading) > 0.25 * sum.area * sum.area;
     const Double3 faces = dot(shape.normal, sum.shading) < 0 ? -shape.normal : shape.normal;
-    const Float3 normal = to_float(agree ? normalized(sum.shading) : faces);
     const std::uint32_t triangle =
         look.triangle == k_none ? pieces_.triangles[pieces_.list[look.piece].first] : look.triangle;
-    const std::array<Float2, 4> uv = pieces_.texcoords(look.piece, triangle);
-    const std::uint32_t n = options.card ? 4 : 3;
     std::array<Double3, 4> corners = shape.corners;
-    fit(std::span(corners).first(n));
-    out.drawn.corners = n, out.drawn.faces = n - 2;
-    for (std::uint32_t c = 0; c < n; ++c) out.drawn.corner[c] = {to_float(corners[c]), normal, uv[c]};
-    out.drawn.face = {{{0, 1, 2}, {0, 2, 3}}};
-    const Double3 front = cross(shape.corners[1] - shape.corners[0], shape.corners[2] - shape.corners[0]);
-    if (dot(front, to_double(normal)) < 0)
-      for (Face& f : out.drawn.face) std::swap(f[1], f[2]);
+    fit(std::span(corners).first(options.card ? 4 : 3));
+    Successor out;
+    out.drawn =
+        leaf_of_shape(pieces_, look.piece, triangle, corners, agree ? normalized(sum.shading) : faces);
     return out;
   }
 
@@ -554,6 +548,7 @@ class Collapse {
 
 Spectrum collapse_spectrum(const Tree& tree, const Looks& looks, const LeafCollapseOptions& options) {
   const LeafPieces pieces = leaf_pieces(tree);
+  if (options.quality == CollapseQuality::fast) return agglomerate_leaves(tree, pieces);
   return Collapse(tree, looks, pieces, options).run();
 }
 

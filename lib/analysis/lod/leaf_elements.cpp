@@ -1,6 +1,21 @@
 #include "lib/analysis/lod/leaf_elements.h"
 
+#include <utility>
+
 namespace copse {
+
+DrawnLeaf leaf_of_shape(const LeafPieces& pieces, std::uint32_t piece, std::uint32_t triangle,
+                        const std::array<Double3, 4>& corners, const Double3& normal) {
+  const std::array<Float2, 4> uv = pieces.texcoords(piece, triangle);
+  DrawnLeaf leaf;
+  leaf.corners = pieces.list[piece].cut == LeafCut::card ? 4 : 3, leaf.faces = leaf.corners - 2;
+  for (std::uint32_t c = 0; c < leaf.corners; ++c)
+    leaf.corner[c] = {to_float(corners[c]), to_float(normal), uv[c]};
+  leaf.face = {{{0, 1, 2}, {0, 2, 3}}};
+  if (dot(cross(corners[1] - corners[0], corners[2] - corners[0]), normal) < 0)
+    for (auto& f : leaf.face) std::swap(f[1], f[2]);
+  return leaf;
+}
 
 LeafElements::LeafElements(const LeafPieces& pieces)
     : pieces_(pieces), builder_(LodMethod::collapse), number_(pieces.part.vertices.size(), k_none) {

@@ -54,6 +54,11 @@ struct DrawnLeaf {
   }
 };
 
+// A leaf with the corners that leaf_shape gives, that looks like a triangle of a piece: with its texture; a
+// card where the piece is one. `normal`: of its vertices, and the side to which it faces.
+DrawnLeaf leaf_of_shape(const LeafPieces& pieces, std::uint32_t piece, std::uint32_t triangle,
+                        const std::array<Double3, 4>& corners, const Double3& normal);
+
 class LeafElements {
  public:
   // Keeps a reference to `pieces`.

@@ -9,6 +9,7 @@ namespace copse {
 namespace {
 
 constexpr double k_turning = 0.125;  // of a leaf's area: turning it by a right angle moves it so far, squared
+constexpr double k_kept = 0.35;      // of what a guest covered, what a host at its very place does not
 constexpr double k_near = 0.005;  // of what a match covers: what one as far apart as the crown is wide costs
 constexpr double k_stranger = 4;  // squared: how much farther leaves of another group are
 constexpr std::uint32_t k_nobody = 0xffffffffu, k_core = 0xfffffffeu;
@@ -141,8 +142,10 @@ class Matching {
   }
 
   // `guest` vanishes, `host` has its area beside its own.
-  double absorbed(const MatchLeaf& host, const MatchLeaf& guest) const {
-    return options_.lost * guest.sole + options_.other * guest.seen + harm(host) * guest.covered;
+  // Of what the guest covered the grown host covers the more the nearer it is.
+  double absorbed(const MatchLeaf& host, const MatchLeaf& guest, double elsewhere) const {
+    return elsewhere * (options_.lost * guest.sole + harm(host) * guest.covered) +
+           options_.other * guest.seen;
   }
 
   // Of anything that two leaves may become.
@@ -153,6 +156,7 @@ class Matching {
     const double apart = dot(d, d) + k_turning * area * (1 - agree * agree);
     // Of two leaves that touch and lie in one plane a third is elsewhere when they become one.
     const double moved = area > 0 ? std::min(0.5 + 0.5 * apart / area, 1.3) : 0;
+    elsewhere_ = area > 0 ? std::min(k_kept + 0.5 * dot(d, d) / area, 1.0) : 1;
     between_ = moved * (0.5 * (options_.lost + options_.gained) * (a.sole + b.sole) +
                         options_.other * (a.seen + b.seen));
     const double excess =
@@ -176,7 +180,8 @@ class Matching {
       for (std::size_t j = i + 1; j < end; ++j) {
         const std::uint32_t b = order_[j];
         const double both = shared(leaves_[a], leaves_[b]);
-        const double b_goes = absorbed(leaves_[a], leaves_[b]), a_goes = absorbed(leaves_[b], leaves_[a]);
+        const double b_goes = absorbed(leaves_[a], leaves_[b], elsewhere_),
+                     a_goes = absorbed(leaves_[b], leaves_[a], elsewhere_);
         offer(b, a, both + std::min(b_goes, between_));
         offer(a, b, both + std::min(a_goes, between_));
       }
@@ -185,7 +190,7 @@ class Matching {
     for (const std::uint32_t c : cores_) is_core[c] = 1;
     for (std::uint32_t guest = 0; guest < n; ++guest) {
       if (is_core[guest] != 0) continue;
-      if (!cores_.empty()) offer(guest, k_core, absorbed(leaves_[cores_.back()], leaves_[guest]));
+      if (!cores_.empty()) offer(guest, k_core, absorbed(leaves_[cores_.back()], leaves_[guest], 1));
       for (const Offer& o : best[guest])
         if (o.host != k_nobody) offers_.push_back(o);
     }
@@ -195,7 +200,7 @@ class Matching {
   MatchOptions options_;
   DoubleBox box_;
   double per_width_ = 0;
-  mutable double between_ = 0;
+  mutable double between_ = 0, elsewhere_ = 1;
   std::vector<std::uint32_t> order_;  // along the curve
   std::vector<std::uint32_t> cores_, match_of_;
   std::vector<Offer> offers_;

@@ -1,0 +1,289 @@
+#include "lib/analysis/lod/leaf_agglomeration.h"
+
+#include "lib/analysis/lod/crown_field.h"
+#include "lib/analysis/lod/leaf_elements.h"
+#include "lib/analysis/lod/leaf_matching.h"
+#include "lib/analysis/lod/leaf_shape.h"
+#include "lib/analysis/lod/radius_ancestors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace copse {
+namespace {
+
+constexpr int k_window = 4;       // neighbours looked at on each side
+constexpr double k_round = 0.25;  // of the leaves: how many at most go in a round
+constexpr int k_guests = 2;       // of one host in a round
+constexpr float k_other = 0.04f;  // what ground counts that shows another leaf, beside one lost or gained
+constexpr float k_near = 0.005f;  // of what a match covers: what one as far apart as the crown is wide costs
+constexpr float k_stranger = 4;   // squared: how much farther leaves of another group are
+constexpr double k_largest = 0.36;  // of the crown's cross-section: a leaf that fits inside
+constexpr double k_margin = 0.012;  // of the crown's width, out of its hull
+constexpr double k_hidden = 0.02;   // of a leaf: if it covers no more alone, it may be anywhere
+constexpr float k_kept = 0.35f;     // of a leaf's ground, what even a host at its place does not cover
+
+// An alive leaf, as the search for hosts sees it.
+struct Leaf {
+  Float3 centre;
+  float area = 0;
+  float sole = 0, seen = 0;  // of its area: covers what nothing else does; is seen
+  float harm = 0;            // of growing, per area
+  std::uint32_t group = k_none, node = k_none;
+  bool full = false;  // does not fit into the crown's hull any larger
+};
+
+struct Offer {
+  float price = 0;
+  std::uint32_t guest = k_none, host = k_none;
+  friend bool operator<(const Offer& x, const Offer& y) {
+    return x.price != y.price ? x.price < y.price : x.guest < y.guest;
+  }
+};
+
+class Agglomeration {
+ public:
+  Agglomeration(const Tree& tree, const LeafPieces& pieces)
+      : pieces_(pieces), field_(field_of(pieces)), ancestors_(tree), elements_(pieces) {
+    largest_ = k_largest * field_.cross_section();
+    const double width = field_.width();
+    per_width_ = width > 0 ? static_cast<float>(1 / (width * width)) : 0;
+  }
+
+  Spectrum run() {
+    gather();
+    while (alive_.size() > 1) round();
+    return elements_.finish();
+  }
+
+ private:
+  struct Node {
+    std::uint32_t radius = k_none;
+    float displacement = 0;
+    std::uint32_t drawn = k_none;  // in made_, once it has grown
+    double area = 0;
+  };
+
+  static CrownField field_of(const LeafPieces& pieces) {
+    std::vector<FoliageTriangle> triangles(pieces.part.triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      for (int c = 0; c < 3; ++c)
+        triangles[t].corners[c] = to_double(pieces.part.vertices[pieces.part.triangles[t][c]].position);
+      triangles[t].opacity = pieces.opacity_of(t);
+    }
+    return {triangles, std::clamp(static_cast<int>(std::cbrt(double(triangles.size()))), 8, 64)};
+  }
+
+  void gather() {
+    std::vector<Leaf> leaves(elements_.size());
+    std::vector<Double3> centres(elements_.size());
+    nodes_.resize(elements_.size());
+    for (std::uint32_t n = 0; n < leaves.size(); ++n) {
+      const LeafPiece& piece = pieces_.list[elements_.piece(n)];
+      double area = 0;
+      Double3 sum{}, corners{};
+      for (const std::uint32_t t : elements_.source(n)) {
+        const auto at = [&](int c) {
+          return to_double(pieces_.part.vertices[pieces_.part.triangles[t][c]].position);
+        };
+        const Double3 a = at(0), b = at(1), c = at(2), normal = cross(b - a, c - a);
+        const double own = 0.5 * std::sqrt(dot(normal, normal));
+        area += own, sum += (a + b + c) * (own / 3), corners += (a + b + c) / 3;
+      }
+      centres[n] = area > 0 ? sum / area : corners / double(elements_.source(n).size());
+      leaves[n].group = piece.group, leaves[n].node = n;
+      nodes_[n].radius = piece.radius, nodes_[n].area = area;
+      place(leaves[n], centres[n], area, field_.at(centres[n]).openness, field_.exposure(centres[n]));
+    }
+    for (const std::uint32_t n : curve_order(centres)) alive_.push_back(leaves[n]);
+  }
+
+  static void place(Leaf& leaf, const Double3& centre, double area, double open, double seen) {
+    leaf.centre = to_float(centre), leaf.area = static_cast<float>(area);
+    leaf.sole = static_cast<float>(area * open), leaf.seen = static_cast<float>(area * seen);
+    leaf.harm = static_cast<float>(open + k_other * seen);
+  }
+
+  void round() {
+    find_hosts();
+    const auto most = std::max<std::size_t>(1, static_cast<std::size_t>(k_round * double(alive_.size())));
+    if (most < offers_.size()) std::nth_element(offers_.begin(), offers_.begin() + most, offers_.end());
+    offers_.resize(std::min(most, offers_.size()));
+    std::sort(offers_.begin(), offers_.end());
+    taken_.assign(alive_.size(), 0);
+    std::size_t merged = 0;
+    for (const Offer& o : offers_) merged += merge(o, false);
+    // Nothing fits: the cheapest are cut to what does.
+    for (std::size_t i = 0; merged == 0 && i < (offers_.size() + 15) / 16; ++i) merge(offers_[i], true);
+    std::erase_if(alive_, [](const Leaf& l) { return l.node == k_none; });
+  }
+
+  // Every leaf's best host.
+  void find_hosts() {
+    const auto n = static_cast<std::uint32_t>(alive_.size());
+    offers_.resize(n);
+    for (std::uint32_t i = 0; i < n; ++i)  // where all are full
+      offers_[i] = {std::numeric_limits<float>::max(), i, i + 1 < n ? i + 1 : i - 1};
+    const auto largest = static_cast<float>(largest_);
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const Leaf& a = alive_[i];
+      const std::uint32_t end = std::min(n, i + k_window + 1);
+      for (std::uint32_t j = i + 1; j < end; ++j) {
+        const Leaf& b = alive_[j];
+        const Float3 d = a.centre - b.centre;
+        const float apart = dot(d, d), area = a.area + b.area;
+        const float lost = area > 0 ? std::min(k_kept + 0.5f * apart / area, 1.0f) : 0;
+        const float far = k_near * area * apart * per_width_ * (a.group == b.group ? 1 : k_stranger) +
+                          (largest > 0 && area > largest ? 20 * (area - largest) : 0);
+        if (!a.full) offer(j, i, far + lost * (b.sole + a.harm * b.area) + k_other * b.seen);
+        if (!b.full) offer(i, j, far + lost * (a.sole + b.harm * a.area) + k_other * a.seen);
+      }
+    }
+  }
+
+  void offer(std::uint32_t guest, std::uint32_t host, float price) {
+    Offer& o = offers_[guest];
+    if (price < o.price) o.price = price, o.host = host;
+  }
+
+  std::size_t merge(const Offer& o, bool cut) {
+    Leaf &host = alive_[o.host], &guest = alive_[o.guest];
+    if (host.node == k_none || guest.node == k_none || taken_[o.guest] != 0 || taken_[o.host] >= k_guests)
+      return 0;
+    Node &h = nodes_[host.node], &g = nodes_[guest.node];
+    DrawnLeaf leaf = drawn(host.node);
+    const double area = h.area + g.area;
+    const Double3 before = leaf.centre();
+    if (!grow(leaf, largest_ > 0 ? std::min(area, largest_) : area, to_double(guest.centre),
+              guest.sole > k_hidden * guest.area, cut)) {
+      host.full = true;
+      return 0;
+    }
+    const Double3 centre = leaf.centre();
+    h.displacement = std::max(h.displacement, displaced(guest, g, centre));
+    h.radius = ancestors_.common(h.radius, g.radius);
+    if (host.group != guest.group) host.group = k_none;
+    const std::uint32_t nodes[] = {host.node, guest.node};
+    const LeafPiece& piece = pieces_.list[elements_.piece(host.node)];
+    elements_.merge(nodes, leaf, piece.material, h.radius, h.displacement);
+    if (h.drawn == k_none) h.drawn = static_cast<std::uint32_t>(made_.size()), made_.emplace_back();
+    made_[h.drawn] = leaf, h.area = leaf.area();
+    see(host, leaf, h.area, distance(before, centre));
+    guest.node = k_none, ++taken_[o.host];
+    return 1;
+  }
+
+  DrawnLeaf drawn(std::uint32_t node) {
+    if (nodes_[node].drawn != k_none) return made_[nodes_[node].drawn];
+    const DrawnLeaf leaf = elements_.drawn(node);
+    return leaf.frond == nullptr ? leaf : stand_in(node);
+  }
+  // A card for a piece of many triangles.
+  DrawnLeaf stand_in(std::uint32_t node) {
+    const std::uint32_t p = elements_.piece(node);
+    Patch patch;
+    Double3 shading{};
+    const Double3 offset =
+        to_double(pieces_.part.vertices[pieces_.part.triangles[elements_.source(node)[0]][0]].position);
+    for (const std::uint32_t t : elements_.source(node)) {
+      std::array<Double3, 3> corners;
+      for (int c = 0; c < 3; ++c) {
+        const SpectrumVertex& v = pieces_.part.vertices[pieces_.part.triangles[t][c]];
+        corners[c] = to_double(v.position) - offset, shading += to_double(v.normal);
+      }
+      Patch own = patch_of(corners, 1, 1);
+      own.up = pieces_.up_of(t) * own.area;
+      patch += own;
+    }
+    const LeafShape shape =
+        leaf_shape(patch, nullptr, offset,
+                   {.card = pieces_.list[p].cut == LeafCut::card, .textured = true, .search = false});
+    return leaf_of_shape(pieces_, p, elements_.source(node).front(), shape.corners,
+                         dot(shape.normal, shading) < 0 ? -shape.normal : shape.normal);
+  }
+
+  // Scales the leaf to the area within the crown's hull. False when it does not fit, unless it may be cut.
+  bool grow(DrawnLeaf& leaf, double area, const Double3& toward, bool seen, bool cut) const {
+    const double now = leaf.area(), by = now > 0 ? std::sqrt(area / now) : 1;
+    const Double3 centre = leaf.centre();
+    // What is seen of the guest is covered better by a leaf that grows to its side.
+    std::uint32_t farthest = 0;
+    double least = 0;
+    for (std::uint32_t k = 0; seen && k < leaf.corners; ++k) {
+      const double along = dot(to_double(leaf.corner[k].position) - centre, toward - centre);
+      if (along < least) least = along, farthest = k + 1;
+    }
+    const DrawnLeaf source = leaf;
+    for (const std::uint32_t about : {farthest, 0u}) {
+      const Double3 fixed = about == 0 ? centre : to_double(source.corner[about - 1].position);
+      if (scale(leaf, source, fixed, by)) return true;
+      if (farthest == 0) break;
+    }
+    for (double less = 0.9 * by; cut && less > 0.01; less *= 0.9)
+      if (scale(leaf, source, centre, less)) return true;
+    return cut;
+  }
+
+  bool scale(DrawnLeaf& leaf, const DrawnLeaf& source, const Double3& fixed, double by) const {
+    std::array<Double3, 4> corners;
+    bool outside = false;
+    for (std::uint32_t k = 0; k < leaf.corners; ++k) {
+      corners[k] = fixed + (to_double(source.corner[k].position) - fixed) * by;
+      outside = outside || !field_.surrounded(corners[k]);
+    }
+    const auto all = std::span(corners).first(leaf.corners);
+    const double margin = k_margin * std::max(field_.width(), 0.0);
+    if (outside && field_.excess(all) > margin) {
+      const Double3 back = field_.way_back(all, 0.9 * margin);
+      for (Double3& c : all) c += back;
+      if (field_.excess(all) > margin) return false;
+    }
+    for (std::uint32_t k = 0; k < leaf.corners; ++k) leaf.corner[k].position = to_float(corners[k]);
+    return true;
+  }
+
+  // How much of a grown leaf is seen where it is now.
+  void see(Leaf& host, const DrawnLeaf& leaf, double area, double moved) const {
+    const Double3 centre = leaf.centre();
+    if (area < 0.25 * field_.cell() * field_.cell() && moved < field_.cell()) {
+      const double now = host.area;
+      place(host, centre, area, now > 0 ? host.sole / now : 1, now > 0 ? host.seen / now : 1);
+      return;
+    }
+    double open = field_.at(centre).openness, seen = field_.exposure(centre);
+    for (const SpectrumVertex& v : leaf.vertices()) {
+      const Double3 p = (to_double(v.position) + centre) * 0.5;
+      open += field_.at(p).openness, seen += field_.exposure(p);
+    }
+    place(host, centre, area, open / (leaf.corners + 1), seen / (leaf.corners + 1));
+  }
+
+  static float displaced(const Leaf& guest, const Node& node, const Double3& to) {
+    const double alone = guest.area > 0 ? guest.sole / double(guest.area) : 0;
+    if (alone < k_hidden) return 0;
+    const Double3 d = to_double(guest.centre) - to;
+    const double moved = std::sqrt(alone) * (node.displacement + std::sqrt(dot(d, d)));
+    return static_cast<float>(std::max(moved, 0.5 * std::sqrt(double(guest.area))));
+  }
+
+  const LeafPieces& pieces_;
+  CrownField field_;
+  RadiusAncestors ancestors_;
+  LeafElements elements_;
+  double largest_ = 0;
+  float per_width_ = 0;
+  std::vector<Leaf> alive_;  // in the order of the curve
+  std::vector<Offer> offers_;
+  std::vector<std::uint8_t> taken_;  // guests of each alive leaf in this round
+  std::vector<Node> nodes_;
+  std::vector<DrawnLeaf> made_;
+};
+
+}  // namespace
+
+Spectrum agglomerate_leaves(const Tree& tree, const LeafPieces& pieces) {
+  return Agglomeration(tree, pieces).run();
+}
+
+}  // namespace copse
