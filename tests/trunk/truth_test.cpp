@@ -147,7 +147,12 @@ TEST(PoorTrees, AreRecoveredExactly) {
        {Case{"cherry", "welded-forks,pointed", 5, 5000},  // k = 4: bands beside what is no point
         Case{"pine", "laid-against", 5, 6000},            // a twig that touches with both its ends
         // no file order tells quads; k = 4: a limb that two other ends could sit on
-        Case{"oak", "extruded,shuffled", 31, 9000}, Case{"bush", "extruded,pointed,shuffled", 31, 9000}}) {
+        Case{"oak", "extruded,shuffled", 31, 9000}, Case{"bush", "extruded,pointed,shuffled", 31, 9000},
+        // flat ends right behind forks; corners of lids that are as sharp as points; flat strips along limbs
+        Case{"spruce", "extruded,capped-fan,shuffled", 31, 9000},
+        Case{"willow", "extruded,capped-ngon,shuffled", 57, 9000},
+        Case{"bush", "welded-forks,capped-ngon", 41, 9000},
+        Case{"pine", "welded-forks,capped-fan,shuffled", 57, 9000}}) {
     const Exactness e = recover_grown(c.species, c.breaks, c.seed, c.triangles);
     EXPECT_TRUE(e.exact()) << c.species << ": " << e.found << " of " << e.rings << " rings, "
                            << e.parents_right << " parents, " << e.extra << " extra: " << e.first_fault;

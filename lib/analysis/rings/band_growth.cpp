@@ -41,6 +41,7 @@ BandGrowth::BandGrowth(const Surface& surface, Bands& bands)
     claimed_[t] = bands.band_of[t] != k_none;
     for (const std::uint32_t v : triangles_[t]) ++degree_[v];
   }
+  for (const std::uint32_t t : bands.lids) claimed_[t] = 1;
 }
 
 void BandGrowth::push(std::uint32_t read_triangle, std::uint32_t a, std::uint32_t b, std::size_t limit) {
@@ -112,9 +113,9 @@ void BandGrowth::commit() {
   for (const Edge& e : step_.far) push(e.triangle, e.a, e.b, limit_after(step_.next.size()));
 }
 
-// Whether the walked front is a border of the surface, or no longer than the longest ring that has led to it.
-// Where limbs share vertices, what is left of their rings is no longer than they are; where a front runs
-// round a hole that a limb sits in, it is.
+// Whether the walked front is a border of the surface or the rim of a lid, or no longer than the longest ring
+// that has led to it. Where limbs share vertices, what is left of their rings is no longer than they are;
+// where a front runs round a hole that a limb sits in, it is.
 bool BandGrowth::is_expected() const {
   std::size_t longest = 0, borders = 0;
   for (const Edge& e : step_.near) {
@@ -122,6 +123,10 @@ bool BandGrowth::is_expected() const {
         across_[e.triangle][static_cast<std::size_t>(edge_between(triangles_[e.triangle], e.a, e.b))];
     borders += behind == k_none;
     if (behind >= bands_.band_of.size()) continue;
+    if (bands_.band_of[behind] == k_none) {  // claimed for a lid
+      ++borders;
+      continue;
+    }
     const std::uint32_t band = bands_.band_of[behind];
     longest = std::max({longest, bands_.ring(2 * band).size(), bands_.ring(2 * band + 1).size()});
   }
@@ -211,12 +216,12 @@ bool BandGrowth::continues_behind(const Fan& fan, int rings) {
 }
 
 bool BandGrowth::is_point(std::uint32_t v, const Fan& fan, Points which) {
-  if (fan.angle <= k_point_angle) return which != Points::followed_by_rings || continues_behind(fan, 2);
+  const int rings = which == Points::followed_by_a_ring ? 1 : 2;
+  if (fan.angle <= k_point_angle) return which == Points::all || continues_behind(fan, rings);
   // The ring behind the link has as many vertices as the link when the link's have five triangles on average.
   std::uint64_t degrees = 0;
   for (const std::uint32_t x : fan.link) degrees += degree_[x];
-  return degree_[v] == fan.link.size() && degrees == 5 * fan.link.size() &&
-         continues_behind(fan, which == Points::followed_by_a_ring ? 1 : 2);
+  return degree_[v] == fan.link.size() && degrees == 5 * fan.link.size() && continues_behind(fan, rings);
 }
 
 void BandGrowth::read_fan(std::uint32_t v, const Fan& fan) {
@@ -244,6 +249,54 @@ void BandGrowth::start_at_points(Points which) {
   for (std::uint32_t v = 0; v < first.size(); ++v) {
     if (unread(first[v]) && collect_fan(v, first[v], fan) && is_point(v, fan, which)) read_fan(v, fan);
   }
+}
+
+void BandGrowth::start_at_lids(double smooth, int rings) {
+  std::vector<SharedEdge> edges;
+  for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
+    for (std::size_t e = 0; e < 3; ++e) {
+      const std::uint32_t n = surface_.across[t][e];
+      if (n != k_none && n > t)
+        edges.push_back({surface_.triangles[t][e], surface_.triangles[t][(e + 1) % 3], t, n});
+    }
+  }
+  for (Lid& lid : find_lids(surface_.positions, surface_.triangles, edges, smooth)) {
+    if (!std::ranges::all_of(lid.triangles, [&](std::uint32_t t) { return unread(t); })) continue;
+    const auto at_start = [&](std::uint32_t t) { return holds(triangles_[t], lid.rim[0], lid.rim[1]); };
+    std::ranges::stable_partition(lid.triangles, at_start);
+    if (may_close(lid) && continues_behind({lid.rim, lid.triangles, 0}, rings)) close_with_lid(lid);
+  }
+}
+
+// Whether a patch may be the end of a limb: about as round as a polygon of its corners can be, as a strip
+// along a limb's side is not; and if there is a vertex in its middle, that does not draw the limb out to a
+// point.
+bool BandGrowth::may_close(const Lid& lid) const {
+  const RingCircle c = ring_circle(surface_.positions, lid.rim);
+  if (lid.middle != k_none && distance(surface_.positions[lid.middle], c.centre) >= k_cap_height * c.radius)
+    return false;
+  Double3 twice_area;
+  double way_round = 0;
+  for (std::size_t i = 0; i < lid.rim.size(); ++i) {
+    const Double3 a = surface_.positions[lid.rim[i]] - c.centre;
+    const Double3 b = surface_.positions[lid.rim[(i + 1) % lid.rim.size()]] - c.centre;
+    twice_area += cross(a, b);
+    way_round += distance(a, b);
+  }
+  const double k = static_cast<double>(lid.rim.size());
+  const double of_regular = 1 / (4 * k * std::tan(std::numbers::pi / k));  // area over way round squared
+  return length(twice_area) / 2 >= k_lid_roundness * of_regular * way_round * way_round;
+}
+
+void BandGrowth::close_with_lid(const Lid& lid) {
+  bands_.lids.insert(bands_.lids.end(), lid.triangles.begin(), lid.triangles.end());
+  for (const std::uint32_t t : lid.triangles) claimed_[t] = 1;
+  for (const std::uint32_t t : lid.triangles) {
+    for (std::size_t e = 0; e < 3; ++e) {
+      push(t, triangles_[t][e], triangles_[t][(e + 1) % 3], limit_after(lid.rim.size()));
+    }
+  }
+  committed_at_ = walks_;
 }
 
 void BandGrowth::close_fans() {
@@ -392,6 +445,7 @@ std::vector<std::uint32_t> BandGrowth::limbs_beyond(std::uint32_t ring) const {
     if (s.outside == k_none) return {};
     is_open |= unread(s.outside);
     if (unread(s.outside) || s.outside >= bands_.band_of.size()) continue;
+    if (bands_.band_of[s.outside] == k_none) continue;  // a lid
     const std::uint32_t first = 2 * bands_.band_of[s.outside];
     for (const std::uint32_t r : {first, first + 1}) {
       const auto other = bands_.ring(r);

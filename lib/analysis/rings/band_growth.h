@@ -9,6 +9,7 @@
 #pragma once
 
 #include "lib/analysis/surface/bands.h"
+#include "lib/analysis/surface/lids.h"
 #include "lib/analysis/surface/surface.h"
 
 #include <cstdint>
@@ -32,6 +33,8 @@ class BandGrowth {
   // blunt vertex only where that is asked for.
   enum class Points : std::uint8_t { followed_by_rings, all, followed_by_a_ring };
   void start_at_points(Points which);
+  // Fronts: the rims of lids (lids.h, with its `smooth`) behind which so many rings of the same size follow.
+  void start_at_lids(double smooth, int rings);
   // Reads fans round a vertex of which half or more is bordered by one band: blunt points, and caps.
   void close_fans();
   // Fronts: the rings of bands first .. count() - 1, which another method has found.
@@ -93,6 +96,8 @@ class BandGrowth {
   bool collect_fan(std::uint32_t v, std::uint32_t t, Fan& fan);
   bool is_point(std::uint32_t v, const Fan& fan, Points which);
   void read_fan(std::uint32_t v, const Fan& fan);
+  bool may_close(const Lid& lid) const;
+  void close_with_lid(const Lid& lid);
   std::vector<std::uint32_t> first_unread() const;
   bool continues_behind(const Fan& fan, int rings);
   // A side a -> b of a ring: the triangle of its band, and what lies across.

@@ -4,8 +4,10 @@
 #include "lib/analysis/rings/ring_graph.h"
 #include "lib/analysis/rings/ring_walk.h"
 #include "lib/analysis/surface/quads.h"
+#include "lib/analysis/surface/tolerances.h"
 #include "lib/analysis/surface/welded_tolerances.h"
 
+#include <cstdint>
 #include <utility>
 
 namespace copse {
@@ -13,31 +15,61 @@ namespace copse {
 namespace {
 
 bool is_complete(const Surface& surface, const Bands& bands) {
-  return bands.triangles.size() == surface.triangles.size();
+  return bands.explained() == surface.triangles.size();
 }
 
-// From every end inward, by counting alone. With `caps`, an end with one ring behind it will do.
-void grow_from_ends(const Surface& surface, bool caps, Bands& bands) {
+// Which ends of limbs growth starts from.
+enum class Ends : std::uint8_t {
+  pointed,  // borders, points, and the middles of caps with rings behind them
+  lidded,   // lids, too
+  any,      // and caps and lids with one ring behind them or, where a limb grows out of the last band, none
+};
+
+// From the ends inward, by counting alone.
+void grow_from_ends(const Surface& surface, Ends ends, Bands& bands) {
+  using Points = BandGrowth::Points;
   BandGrowth growth(surface, bands);
+  const auto start_at_points = [&](Points which) {
+    growth.start_at_points(which);
+    growth.run(false);
+  };
+  const auto start_at_lids = [&](double smooth, int rings) {
+    if (is_complete(surface, bands)) return;
+    growth.start_at_lids(smooth, rings);
+    growth.run(false);
+  };
   growth.start_at_borders();
   growth.run(false);
-  growth.start_at_points(BandGrowth::Points::followed_by_rings);
-  growth.run(false);
-  growth.start_at_points(BandGrowth::Points::all);
-  growth.run(false);
-  growth.read_past_limbs();
-  if (!caps || is_complete(surface, bands)) return;
-  growth.start_at_points(BandGrowth::Points::followed_by_a_ring);
-  growth.run(false);
+  if (ends != Ends::pointed) {
+    for (const double smooth : k_lid_smooth_cosines) start_at_lids(smooth, 2);
+  }
+  start_at_points(Points::followed_by_rings);
+  if (ends == Ends::any) {
+    growth.read_past_limbs();
+    for (const double smooth : k_lid_smooth_cosines) start_at_lids(smooth, 1);
+    start_at_points(Points::followed_by_a_ring);
+    growth.read_past_limbs();
+    start_at_lids(k_lid_smooth_cosines[0], 0);
+    growth.read_past_limbs();
+  }
+  // The corners of lids are as sharp as points.
+  start_at_points(Points::all);
   growth.read_past_limbs();
 }
 
-Bands read_bands(const Surface& surface, bool in_order) {
+// What lies in no band and is no lid.
+std::vector<std::uint32_t> taken(const Bands& bands) {
+  std::vector<std::uint32_t> taken = bands.band_of;
+  for (const std::uint32_t t : bands.lids) taken[t] = 0;
+  return taken;
+}
+
+Bands read_bands(const Surface& surface, Ends ends, bool in_order) {
   Bands bands;
   bands.band_of.assign(surface.triangles.size(), k_none);
-  grow_from_ends(surface, false, bands);
+  grow_from_ends(surface, ends, bands);
   if (!is_complete(surface, bands)) {
-    add_quad_bands(surface, pair_quads(surface, bands.band_of, in_order), bands);
+    add_quad_bands(surface, pair_quads(surface, taken(bands), in_order), bands);
     BandGrowth growth(surface, bands);
     growth.start_at_bands(0);
     growth.run(false);
@@ -66,7 +98,7 @@ bool is_corner(const Surface& surface, const Bands& bands, std::uint32_t band) {
 
 // What takes no corner for a point can go on where one was.
 void grow_on(const Surface& surface, Bands& bands) {
-  if (bands.triangles.size() == surface.triangles.size()) return;
+  if (is_complete(surface, bands)) return;
   BandGrowth growth(surface, bands);
   growth.start_at_bands(0);
   growth.run(false);
@@ -75,6 +107,7 @@ void grow_on(const Surface& surface, Bands& bands) {
 Bands without_corners(const Surface& surface, const Bands& all) {
   Bands kept;
   kept.band_of.assign(surface.triangles.size(), k_none);
+  kept.lids = all.lids;
   for (std::uint32_t b = 0; b < all.count(); ++b) {
     if (!is_corner(surface, all, b)) kept.add(all.ring(2 * b), all.ring(2 * b + 1), all.triangles_of(b));
   }
@@ -84,17 +117,20 @@ Bands without_corners(const Surface& surface, const Bands& all) {
 }  // namespace
 
 Bands read_bands(const Surface& surface) {
-  // Where counting explains every triangle there is nothing to choose. The flat end of a short twig is easily
-  // taken for something else, so it counts as an end only where all is then explained.
-  Bands counted;
-  counted.band_of.assign(surface.triangles.size(), k_none);
-  grow_from_ends(surface, true, counted);
-  if (is_complete(surface, counted)) return counted;
-  Bands bands = read_bands(surface, true);
+  // Where counting explains every triangle there is nothing to choose. Flat ends are easily mistaken for
+  // something else, so those of short twigs count only where all is then explained.
+  for (const Ends ends : {Ends::pointed, Ends::any}) {
+    Bands counted;
+    counted.band_of.assign(surface.triangles.size(), k_none);
+    grow_from_ends(surface, ends, counted);
+    if (is_complete(surface, counted)) return counted;
+  }
+  Bands bands = read_bands(surface, Ends::pointed, true);
   const auto enough = k_enough_bands * static_cast<double>(surface.triangles.size());
-  if (static_cast<double>(bands.triangles.size()) < enough) {
-    Bands by_shape = read_bands(surface, false);
-    if (by_shape.triangles.size() > bands.triangles.size()) bands = std::move(by_shape);
+  for (const Ends ends : {Ends::pointed, Ends::lidded}) {
+    if (static_cast<double>(bands.explained()) >= enough) break;
+    Bands by_shape = read_bands(surface, ends, false);
+    if (by_shape.explained() > bands.explained()) bands = std::move(by_shape);
   }
   const std::size_t before = bands.triangles.size();
   bands = without_corners(surface, bands);
@@ -106,7 +142,7 @@ RingReading read_fork_rings(const Surface& surface) {
   if (surface.triangles.empty()) return {};
   const Bands bands = read_bands(surface);
   return {walk_rings(surface, bands, make_ring_graph(surface, bands)),
-          static_cast<double>(bands.triangles.size()) / static_cast<double>(surface.triangles.size())};
+          static_cast<double>(bands.explained()) / static_cast<double>(surface.triangles.size())};
 }
 
 }  // namespace copse

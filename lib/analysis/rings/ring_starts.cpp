@@ -1,7 +1,6 @@
 #include "lib/analysis/rings/ring_starts.h"
 
-#include "lib/analysis/surface/components.h"
-#include "lib/analysis/surface/tolerances.h"
+#include "lib/analysis/surface/lids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,44 +89,13 @@ bool RingStarts::may_be_apex(std::uint32_t vertex) const {
   return k >= 3 && (corners == 2 * 5 * k || corners == 2 * 4 * k || corners + 12 == 2 * 5 * k);
 }
 
-Double3 RingStarts::normal(std::uint32_t triangle) const {
-  const auto [a, b, c] = mesh_.triangles[triangle];
-  return normalized(cross(normalized(mesh_.positions[b] - mesh_.positions[a]),
-                          normalized(mesh_.positions[c] - mesh_.positions[a])),
-                    {0, 0, 0});
-}
-
-RingStarts::Ring RingStarts::rim(std::span<const std::array<std::uint32_t, 2>> edges,
-                                 std::size_t triangles) const {
-  // The rim of a disc without inner vertices has two edges more than the disc has triangles.
-  if (edges.size() != triangles + 2) return {};
-  std::vector<std::array<std::uint32_t, 2>> ends;  // (vertex, the other end)
-  for (const auto& [a, b] : edges) ends.push_back({a, b}), ends.push_back({b, a});
-  std::ranges::sort(ends);
-  for (std::size_t i = 0; i < ends.size(); i += 2) {
-    if (ends[i][0] != ends[i + 1][0] || (i > 0 && ends[i - 1][0] == ends[i][0])) return {};
-  }
-  Ring ring;
-  std::uint32_t previous = k_none, current = ends[0][0];
-  do {
-    ring.push_back(current);
-    const auto at = std::ranges::lower_bound(ends, std::array<std::uint32_t, 2>{current, 0});
-    const std::uint32_t next = (*at)[1] == previous ? (*(at + 1))[1] : (*at)[1];
-    previous = current;
-    current = next;
-  } while (current != ends[0][0] && ring.size() <= edges.size());
-  return ring.size() == edges.size() ? ring : Ring{};
-}
-
 std::vector<RingStarts::Ring> RingStarts::lids(std::span<const std::uint32_t> triangles, double smooth) {
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) local_[triangles[i]] = i;
-  // Edges between exactly two triangles, found from their lower end; smooth ones join their triangles.
-  UnionFind patches(triangles.size());
-  struct Crease {
-    std::uint32_t patch;
-    std::array<std::uint32_t, 2> edge;
-  };
-  std::vector<std::array<std::uint32_t, 4>> edges;  // two vertices, two local triangles
+  std::vector<Triangle> corners;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    local_[triangles[i]] = i;
+    corners.push_back(mesh_.triangles[triangles[i]]);
+  }
+  std::vector<SharedEdge> edges;  // between exactly two triangles, found from their lower end
   for (const std::uint32_t t : triangles) {
     for (const std::uint32_t v : mesh_.triangles[t]) {
       if (fans_.of(v).front() != t) continue;  // visit each vertex once: from its first triangle
@@ -139,30 +107,9 @@ std::vector<RingStarts::Ring> RingStarts::lids(std::span<const std::uint32_t> tr
       }
     }
   }
-  for (const auto& e : edges) {
-    // Winding may be inconsistent: a fold by more than a right angle counts as its supplement.
-    if (std::abs(dot(normal(triangles[e[2]]), normal(triangles[e[3]]))) > smooth) {
-      patches.unite(e[2], e[3]);
-    }
-  }
-  std::vector<Crease> creases;
-  for (const auto& e : edges) {
-    const std::uint32_t a = patches.find(e[2]), b = patches.find(e[3]);
-    if (a == b) continue;
-    creases.push_back({a, {e[0], e[1]}});
-    creases.push_back({b, {e[0], e[1]}});
-  }
-  std::ranges::stable_sort(creases, {}, &Crease::patch);
-  std::vector<std::uint32_t> size(triangles.size(), 0);
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) ++size[patches.find(i)];
   std::vector<Ring> rims;
-  std::vector<std::array<std::uint32_t, 2>> rim_edges;
-  for (std::size_t i = 0; i < creases.size();) {
-    const std::uint32_t patch = creases[i].patch;
-    rim_edges.clear();
-    for (; i < creases.size() && creases[i].patch == patch; ++i) rim_edges.push_back(creases[i].edge);
-    Ring ring = rim(rim_edges, size[patch]);
-    if (!ring.empty()) rims.push_back(std::move(ring));
+  for (Lid& lid : find_lids(mesh_.positions, corners, edges, smooth)) {
+    if (lid.middle == k_none) rims.push_back(std::move(lid.rim));
   }
   return rims;
 }

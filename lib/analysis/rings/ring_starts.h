@@ -32,8 +32,7 @@ class RingStarts {
   // quick test that most vertices of a tube fail.
   bool may_be_apex(std::uint32_t vertex) const;
 
-  // The rims of all smooth patches that are discs without inner vertices: lids, and the flat sides of boxes.
-  // A patch ends where the cosine between the normals of neighbouring triangles is not above `smooth`.
+  // The rims of all lids (lids.h) without a vertex in the middle.
   std::vector<Ring> lids(std::span<const std::uint32_t> triangles, double smooth);
 
   // The rungs and points that a strip (a disc without inner vertices) may start with.
@@ -48,8 +47,6 @@ class RingStarts {
   void sides_at(std::uint32_t vertex);
   // The two ends of the boundary edges at the vertex; {k_none, k_none} unless there are exactly two.
   std::array<std::uint32_t, 2> boundary_neighbours(std::uint32_t vertex);
-  Double3 normal(std::uint32_t triangle) const;
-  Ring rim(std::span<const std::array<std::uint32_t, 2>> edges, std::size_t triangles) const;
 
   const TrunkMesh& mesh_;
   const Fans& fans_;

@@ -22,8 +22,11 @@ class RingWalk {
         branch_of_(g.nodes(), k_none),
         is_seated_(g.nodes(), 0),
         owned_(s.positions.size(), 0),
+        is_lid_(s.triangles.size(), 0),
         joint_of_(g.sites, k_none),
-        entered_(g.sites, 0) {}
+        entered_(g.sites, 0) {
+    for (const std::uint32_t t : bands.lids) is_lid_[t] = 1;
+  }
 
   Hierarchy walk() {
     out_.segment_of.assign(s_.triangles.size(), k_none);
@@ -54,8 +57,11 @@ class RingWalk {
   // a border; less at a pointed end; least where the limb goes on.
   double root_penalty(std::uint32_t node) const {
     if (const std::uint32_t site = g_.site_of[node]; site != k_none) {
+      const bool is_end = g_.ends[site].size() == 1;
+      const bool is_lid =
+          is_end && std::ranges::all_of(g_.patch[site], [&](std::uint32_t t) { return is_lid_[t] != 0; });
       // A closed lump at the end of a limb may be anything.
-      return g_.is_open[site] ? 0 : g_.ends[site].size() == 1 ? 0.5 : 2;
+      return g_.is_open[site] || is_lid ? 0 : is_end ? 0.5 : 2;
     }
     if (g_.bands_of[node].size() == 1) return 0;
     double least = 2;
@@ -295,6 +301,7 @@ class RingWalk {
   Hierarchy out_;
   std::vector<std::uint32_t> radius_of_, branch_of_;  // one a node; of its seat where it is no radius itself
   std::vector<std::uint8_t> is_seated_, owned_;       // one a node, one a vertex
+  std::vector<std::uint8_t> is_lid_;                  // one a triangle
   std::vector<std::uint32_t> joint_of_;               // one a site: the radius between its limbs
   std::vector<std::uint8_t> entered_;                 // one a site
   std::deque<std::uint32_t> waiting_;                 // placed nodes whose sites are still to be entered

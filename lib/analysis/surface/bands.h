@@ -16,7 +16,9 @@ struct Bands {
   std::vector<std::uint32_t> first_triangle{0}, triangles;
   std::vector<std::uint32_t> first_vertex{0}, vertices;  // ring r: vertices[first_vertex[r] .. [r + 1])
   std::vector<std::uint32_t> band_of;                    // one a triangle of the surface: its band or k_none
+  std::vector<std::uint32_t> lids;                       // triangles in no band that close the end of a limb
 
+  std::size_t explained() const { return triangles.size() + lids.size(); }
   std::uint32_t count() const { return static_cast<std::uint32_t>(first_triangle.size() - 1); }
   std::span<const std::uint32_t> ring(std::uint32_t r) const {
     return std::span(vertices).subspan(first_vertex[r], first_vertex[r + 1] - first_vertex[r]);
