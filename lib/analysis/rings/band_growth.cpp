@@ -216,6 +216,7 @@ bool BandGrowth::continues_behind(const Fan& fan, int rings) {
 }
 
 bool BandGrowth::is_point(std::uint32_t v, const Fan& fan, Points which) {
+  if (!is_round(fan.link)) return false;
   const int rings = which == Points::followed_by_a_ring ? 1 : 2;
   if (fan.angle <= k_point_angle) return which == Points::all || continues_behind(fan, rings);
   // The ring behind the link has as many vertices as the link when the link's have five triangles on average.
@@ -268,24 +269,28 @@ void BandGrowth::start_at_lids(double smooth, int rings) {
   }
 }
 
-// Whether a patch may be the end of a limb: about as round as a polygon of its corners can be, as a strip
-// along a limb's side is not; and if there is a vertex in its middle, that does not draw the limb out to a
-// point.
-bool BandGrowth::may_close(const Lid& lid) const {
-  const RingCircle c = ring_circle(surface_.positions, lid.rim);
-  if (lid.middle != k_none && distance(surface_.positions[lid.middle], c.centre) >= k_cap_height * c.radius)
-    return false;
+// Whether vertices may lie round a limb: their polygon is about as round as one of so many corners can be.
+// What surrounds a corner, and a strip along a limb's side, is long.
+bool BandGrowth::is_round(std::span<const std::uint32_t> ring) const {
+  const Double3 origin = surface_.positions[ring[0]];
   Double3 twice_area;
   double way_round = 0;
-  for (std::size_t i = 0; i < lid.rim.size(); ++i) {
-    const Double3 a = surface_.positions[lid.rim[i]] - c.centre;
-    const Double3 b = surface_.positions[lid.rim[(i + 1) % lid.rim.size()]] - c.centre;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Double3 a = surface_.positions[ring[i]] - origin;
+    const Double3 b = surface_.positions[ring[(i + 1) % ring.size()]] - origin;
     twice_area += cross(a, b);
     way_round += distance(a, b);
   }
-  const double k = static_cast<double>(lid.rim.size());
+  const double k = static_cast<double>(ring.size());
   const double of_regular = 1 / (4 * k * std::tan(std::numbers::pi / k));  // area over way round squared
-  return length(twice_area) / 2 >= k_lid_roundness * of_regular * way_round * way_round;
+  return length(twice_area) / 2 >= k_ring_roundness * of_regular * way_round * way_round;
+}
+
+// Whether a patch may be the end of a limb; a vertex in its middle must not draw the limb out to a point.
+bool BandGrowth::may_close(const Lid& lid) const {
+  if (!is_round(lid.rim)) return false;
+  const RingCircle c = ring_circle(surface_.positions, lid.rim);
+  return lid.middle == k_none || distance(surface_.positions[lid.middle], c.centre) < k_cap_height * c.radius;
 }
 
 void BandGrowth::close_with_lid(const Lid& lid) {

@@ -96,6 +96,7 @@ class BandGrowth {
   bool collect_fan(std::uint32_t v, std::uint32_t t, Fan& fan);
   bool is_point(std::uint32_t v, const Fan& fan, Points which);
   void read_fan(std::uint32_t v, const Fan& fan);
+  bool is_round(std::span<const std::uint32_t> ring) const;
   bool may_close(const Lid& lid) const;
   void close_with_lid(const Lid& lid);
   std::vector<std::uint32_t> first_unread() const;

@@ -11,9 +11,9 @@ namespace copse {
 // corner of a cube has 3/2 pi; this is a cone whose side is 46 degrees off its axis.
 inline constexpr double k_point_angle = 1.45 * 3.14159265358979323846;
 
-// Area over the square of the way round, as a share of a regular polygon's: the end of a limb is rounder. A
-// rectangle three and a half times as long as wide has less, a rough or sheared ring more.
-inline constexpr double k_lid_roundness = 0.7;
+// Area over the square of the way round, as a share of a regular polygon's: what lies round the end of a limb
+// is rounder. A rectangle three and a half times as long as wide has less, a rough or sheared ring more.
+inline constexpr double k_ring_roundness = 0.7;
 
 // Vertices: holes wider than this are not closed where a limb was cut into another one. Closing costs the
 // square.
