@@ -1,8 +1,8 @@
 #include "lib/analysis/volumes/cylinders.h"
 
 #include "lib/analysis/volumes/frame.h"
-#include "lib/analysis/volumes/minimal_sphere.h"
 #include "lib/analysis/volumes/principal_axes.h"
+#include "lib/analysis/volumes/smallest_circle.h"
 
 #include <algorithm>
 #include <chrono>
@@ -30,9 +30,9 @@ struct Tube {
   Double3 direction;
   Double3 centre;  // of the circle, across the direction
   double radius = 0, low = 0, high = 0;
-  SupportBall ball;           // in the coordinates of the plane
+  double lower_radius = 0;    // of the circle round what holds it
   Double3 first, last;        // points at the ends
-  double support_extent = 0;  // along the direction, of the points on the circle
+  double support_extent = 0;  // along the direction, of the points that hold the circle
   double volume() const { return volume_of(radius, high - low); }
 };
 
@@ -41,42 +41,21 @@ Tube tube_along(std::span<const Double3> points, const Double3& direction) {
   t.direction = direction;
   const Double3 u = any_normal(direction), v = cross(direction, u);
   t.low = std::numeric_limits<double>::infinity(), t.high = -t.low;
-  std::vector<Double3> flat;  // with the height along the direction as third coordinate, kept for the ends
+  std::vector<Vec2<double>> flat;
   flat.reserve(points.size());
   for (const Double3& p : points) {
     const double h = dot(p, direction);
     if (h < t.low) t.low = h, t.first = p;
     if (h > t.high) t.high = h, t.last = p;
-    flat.push_back({dot(p, u), dot(p, v), h});
+    flat.push_back({dot(p, u), dot(p, v)});
   }
-  const auto farthest_from = [&](const Double3& c) {
-    std::size_t far = 0;
-    double most = -1;
-    for (std::size_t i = 0; i < flat.size(); ++i) {
-      const double x = flat[i].x - c.x, y = flat[i].y - c.y, d = x * x + y * y;
-      if (d > most) most = d, far = i;
-    }
-    return std::pair(far, std::sqrt(most));
-  };
-  std::vector<Double3> touched;
-  const auto include = [&](std::size_t i) {
-    t.ball.include({{flat[i].x, flat[i].y, 0}, 0});
-    touched.push_back(flat[i]);
-  };
-  include(farthest_from({flat[0].x, flat[0].y, 0}).first);
-  PivotLoop loop;
-  for (;;) {
-    const auto [far, reach] = farthest_from(t.ball.centre());
-    if (!loop.should_include(t.ball, reach)) break;
-    include(far);
-  }
-  t.radius = loop.best().radius;
-  t.centre = u * loop.best().centre.x + v * loop.best().centre.y;
+  const SmallestCircle circle = smallest_circle(flat);
+  t.radius = circle.radius, t.lower_radius = circle.lower_radius;
+  t.centre = u * circle.centre.x + v * circle.centre.y;
   double low = t.high, high = t.low;
-  for (const Sphere& s : t.ball.support()) {
-    for (const Double3& q : touched) {
-      if (q.x == s.centre.x && q.y == s.centre.y) low = std::min(low, q.z), high = std::max(high, q.z);
-    }
+  for (int i = 0; i < circle.supports; ++i) {
+    const double h = dot(points[circle.support[i]], direction);
+    low = std::min(low, h), high = std::max(high, h);
   }
   t.support_extent = std::max(0.0, high - low);
   return t;
@@ -249,7 +228,7 @@ class CylinderBounder {
     const double cosine = std::sqrt(1 - sine * sine);
     const Double3 e = t.last - t.first;
     const double height = cosine * (t.high - t.low) - sine * length(cross(e, t.direction)) - k_absolute;
-    const double radius = cosine * t.ball.radius() - sine * t.support_extent / 2 - k_absolute;
+    const double radius = cosine * t.lower_radius - sine * t.support_extent / 2 - k_absolute;
     return height > 0 && radius > 0 ? volume_of(radius, height) * (1 - k_rounding) : 0;
   }
 
