@@ -88,6 +88,20 @@ TEST_F(Bvfit, ExactSaysWhatItCouldNotProve) {
   EXPECT_NE(o.err.find("not proven"), std::string::npos) << o.err;
 }
 
+TEST_F(Bvfit, ATinyBudgetStillGivesACertifiedVolumeOfEachTypeAndTimeEnoughTheLeast) {
+  const json quick = fitted({cube(), "--budget", "1e-9"}), whole = fitted({cube()}),
+             timed = fitted({cube(), "--budget", "30"});
+  ASSERT_EQ(quick["sets"][0]["volumes"].size(), whole["sets"][0]["volumes"].size());
+  for (std::size_t i = 0; i < whole["sets"][0]["volumes"].size(); ++i) {
+    const json &q = quick["sets"][0]["volumes"][i], &w = whole["sets"][0]["volumes"][i],
+               &t = timed["sets"][0]["volumes"][i];
+    EXPECT_EQ(q["type"], w["type"]);
+    EXPECT_TRUE(q["certified"].get<bool>()) << q.dump();
+    EXPECT_GE(q["volume"].get<double>(), w["volume"].get<double>() * (1 - 1e-6)) << q.dump();
+    EXPECT_LE(t["volume"].get<double>(), w["volume"].get<double>() * (1 + 1e-6)) << t.dump();
+  }
+}
+
 TEST_F(Bvfit, NumbersAreFloat32AndReadTheSameAsDoubles) {
   const json j = fitted({cube()});
   std::size_t seen = 0;

@@ -195,6 +195,35 @@ TEST(FitVolumes, APlaceFarAwayChangesNothingButRoundingOfAnyMethod) {
   }
 }
 
+TEST(FitVolumes, WhenTheTimeIsUpEveryMethodStillGivesAProvenVolumeNoWorseThanTheQuickOnes) {
+  for (const Points& points : {battery::turned(battery::twig(10)), battery::torus(40, 32, 0.5, 0.125),
+                               battery::cloud(9000, {1, 1, 1}, 10), battery::lattice(9, 3)}) {
+    const auto late = fit_all(points, {FitQuality::exact, Deadline::after(0)});
+    for (const FittedVolume& v : late) {
+      EXPECT_TRUE(v.certified && certify(v.volume, points).holds()) << label(v);
+      EXPECT_LE(v.lower_bound, v.measures.volume) << label(v);
+      if (!v.method.least || v.method.kind == VolumeKind::kdop) continue;
+      for (const FittedVolume& quick : late) {
+        if (quick.method.kind == v.method.kind && quick.method.quick) {
+          EXPECT_LE(v.measures.volume, quick.measures.volume) << label(v) << " " << label(quick);
+        }
+      }
+    }
+  }
+}
+
+TEST(FitVolumes, TimeEnoughGivesWhatNoLimitGivesAndAProof) {
+  const Points points = battery::turned(battery::cloud(60, {1, 2, 4}, 3));
+  const auto all = fit_all(points), timed = fit_all(points, {FitQuality::balanced, Deadline::after(60)});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_LE(timed[i].measures.volume, all[i].measures.volume * (1 + 1e-6)) << label(all[i]);
+    const double gap = exact_gap(timed[i].method.kind);
+    if (timed[i].method.least && std::isfinite(gap)) {
+      EXPECT_LE(timed[i].measures.volume, timed[i].lower_bound * (1 + gap + 1e-5)) << label(timed[i]);
+    }
+  }
+}
+
 TEST(FitVolumes, LowerBoundsAreSharedWithinAKind) {
   auto all = fit_all(battery::cube());
   share_lower_bounds(all);

@@ -180,6 +180,7 @@ std::string dropped_text(std::span<const SetFit> fits) {
 
 Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods, const Options& options,
                        const Choosing& choosing) {
+  const Deadline deadline = options.budget > 0 ? Deadline::after(options.budget) : Deadline();
   const auto fitter = VolumeFitter::make(set.points, set.triangles);
   if (!fitter) return std::unexpected(fitter.error());
   SetFit fit;
@@ -192,14 +193,13 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
   fit.hull_seconds = fitter->hull_seconds();
   fit.size = length(fitter->hull().box.extent()) * frame.scale;
   if (choosing.criterion == Criterion::aspect || options.tune) fit.ratios = ratios_of(*fitter);
-  const FitOptions how{options.quality,
-                       options.budget / static_cast<double>(std::max<std::size_t>(1, methods.size()))};
-  for (const FitMethod& m : methods_for(methods, choosing, fit.ratios)) {
-    auto v = fitter->fit(m, how);
+  const std::vector<FitMethod> wanted = methods_for(methods, choosing, fit.ratios);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    auto v = fitter->fit(wanted[i], {options.quality, deadline.share(wanted.size() - i)});
     if (v) {
       fit.volumes.push_back(std::move(*v));
     } else {
-      fit.dropped.push_back(m.kind);
+      fit.dropped.push_back(wanted[i].kind);
     }
   }
   if (fit.volumes.empty()) return refuse("", set.name + " is too large for float32", "use a smaller scale");

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <queue>
@@ -67,14 +66,9 @@ class BoxBounder {
         options_(options) {}
 
   BoxBound run() {
-    const auto start = std::chrono::steady_clock::now();
-    const auto late = [&] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >
-             options_.seconds;
-    };
     push_root();
     while (!open_.empty() && open_.top().bound < target() && made_ < options_.max_cells) {
-      if (made_ % 64 == 0 && late()) break;
+      if (options_.deadline.has_passed()) break;
       const Cell cell = open_.top();
       open_.pop();
       Double3 half = cell.half;

@@ -12,6 +12,7 @@
 // Rounding is accounted for by 1e-14 of the length of every pair.
 #pragma once
 
+#include "lib/analysis/volumes/deadline.h"
 #include "lib/analysis/volumes/frame.h"
 
 #include <cstddef>
@@ -24,7 +25,7 @@ namespace copse {
 struct BoxBoundOptions {
   double gap = 0.01;
   std::size_t max_cells = 2'000'000;
-  double seconds = std::numeric_limits<double>::infinity();
+  Deadline deadline = {};
   // Called with a frame whose box is smaller than the smallest known; may improve it and gives the volume.
   std::function<double(const Axes&, double volume)> improve;
 };

@@ -152,16 +152,20 @@ void add_rotations(const Axes& base, std::vector<Axes>& starts) {
   }
 }
 
-std::vector<FrameVolume> starts_for(const ConvexHull& hull, const VertexWidths& widths) {
+std::vector<FrameVolume> starts_for(const ConvexHull& hull, const VertexWidths& widths,
+                                    const Deadline& deadline) {
   std::vector<Axes> starts{k_world_axes, hull.axes, principal_axes(hull.vertices).axes,
                            principal_axes(hull.vertices, hull.faces).axes};
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 4 && !deadline.has_passed(); ++i) {
     for (int k = 0; k < 3; ++k) starts.push_back(turned_to_rectangle(hull.vertices, starts[i], k));
   }
-  add_facets(hull, starts);
-  add_rotations(hull.axes, starts);
+  if (!deadline.has_passed()) add_facets(hull, starts);
+  if (!deadline.has_passed()) add_rotations(hull.axes, starts);
   std::vector<FrameVolume> valued;
-  for (const Axes& a : starts) valued.push_back({a, widths.volume(a)});
+  for (const Axes& a : starts) {
+    if (valued.size() >= 4 && deadline.has_passed()) break;
+    valued.push_back({a, widths.volume(a)});
+  }
   std::stable_sort(valued.begin(), valued.end(),
                    [](const FrameVolume& a, const FrameVolume& b) { return a.volume < b.volume; });
   return valued;
@@ -218,17 +222,17 @@ FrameVolume descend(std::span<const Double3> vertices, const VertexWidths& width
   return best;
 }
 
-FrameVolume search_box(const ConvexHull& hull, const VertexWidths& widths) {
+FrameVolume search_box(const ConvexHull& hull, const VertexWidths& widths, const Deadline& deadline) {
   const FrameVolume world{k_world_axes, widths.volume(k_world_axes)};
   std::vector<FrameVolume> ends;
-  for (const FrameVolume& start : spread_out(starts_for(hull, widths), k_kept)) {
-    ends.push_back(simplex_descent(widths, start, 0.25, 80));
+  for (const FrameVolume& start : spread_out(starts_for(hull, widths, deadline), k_kept)) {
+    ends.push_back(deadline.has_passed() ? start : simplex_descent(widths, start, 0.25, 80));
   }
   std::stable_sort(ends.begin(), ends.end(),
                    [](const FrameVolume& a, const FrameVolume& b) { return a.volume < b.volume; });
   FrameVolume best = world;
   for (const FrameVolume& end : spread_out(ends, k_ends)) {
-    const FrameVolume low = descend(hull.vertices, widths, end);
+    const FrameVolume low = deadline.has_passed() ? end : descend(hull.vertices, widths, end);
     // The world's axes, when they are as good, are exact.
     if (low.volume < best.volume * (1 - k_gain)) best = low;
   }

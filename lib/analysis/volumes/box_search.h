@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/analysis/volumes/convex_hull.h"
+#include "lib/analysis/volumes/deadline.h"
 #include "lib/analysis/volumes/vertex_widths.h"
 
 #include <vector>
@@ -24,7 +25,7 @@ FrameVolume simplex_descent(const VertexWidths& widths, const FrameVolume& start
 // Both kinds of step in turn until neither gains.
 FrameVolume descend(std::span<const Double3> vertices, const VertexWidths& widths, const FrameVolume& start);
 
-// The best frame that is found from all starts.
-FrameVolume search_box(const ConvexHull& hull, const VertexWidths& widths);
+// The best frame that is found from all starts, or from as many as the time allows.
+FrameVolume search_box(const ConvexHull& hull, const VertexWidths& widths, const Deadline& deadline = {});
 
 }  // namespace copse

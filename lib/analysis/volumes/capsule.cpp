@@ -86,9 +86,9 @@ Capsule<double> least_squares_capsule(std::span<const Double3> points) {
   return capsule_on_line(points, frame.mean, frame.axes[0]);
 }
 
-Capsule<double> projected_circle_capsule(std::span<const Double3> points) {
+Capsule<double> projected_circle_capsule(std::span<const Double3> points, const Deadline& deadline) {
   if (points.empty()) return {};
-  const SweptFit line = search_around(Swept::line, points);
+  const SweptFit line = search_around(Swept::line, points, deadline);
   const SweptRectangle& s = line.rectangle;
   const Double3 middle = out_of(line.frame, {(s.a0 + s.a1) / 2, s.b0, s.h});
   return capsule_on_line(points, middle, line.frame[0]);

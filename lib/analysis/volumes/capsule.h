@@ -4,6 +4,7 @@
 // are in both where the half spheres touch the points (xi0 and xi1, with the sign of the errata).
 #pragma once
 
+#include "lib/analysis/volumes/deadline.h"
 #include "lib/analysis/volumes/swept_shape.h"
 #include "lib/formats/volume.h"
 
@@ -30,6 +31,7 @@ Capsule<double> least_squares_capsule(std::span<const Double3> points);
 // Along the direction in which the smallest circle about the projected points is smallest: the axis of the
 // thinnest cylinder around them (the least of the local minima from the principal axes and the directions
 // between them). Pass the hull's vertices, |p| about 1: some 2 ms for a hundred.
-Capsule<double> projected_circle_capsule(std::span<const Double3> points);
+// With a deadline, the best that is found by then.
+Capsule<double> projected_circle_capsule(std::span<const Double3> points, const Deadline& deadline = {});
 
 }  // namespace copse

@@ -5,7 +5,6 @@
 #include "lib/analysis/volumes/smallest_circle.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <queue>
@@ -125,9 +124,13 @@ double first_step(const Tube& t) {
   return std::clamp(0.3 * std::min(r, h) / std::max({r, h, 1e-300}), 1e-13, 0.1);
 }
 
-Tube search(const ConvexHull& hull) {
+Tube search(const ConvexHull& hull, const Deadline& deadline) {
+  constexpr std::size_t k_least = 6;  // the world's axes and the hull's
   std::vector<Tube> tubes;
-  for (const Double3& d : starts_for(hull)) tubes.push_back(tube_along(hull.vertices, d));
+  for (const Double3& d : starts_for(hull)) {
+    if (tubes.size() >= k_least && deadline.has_passed()) break;
+    tubes.push_back(tube_along(hull.vertices, d));
+  }
   std::stable_sort(tubes.begin(), tubes.end(),
                    [](const Tube& a, const Tube& b) { return a.volume() < b.volume(); });
   Tube best = tubes[0];
@@ -136,6 +139,7 @@ Tube search(const ConvexHull& hull) {
   for (std::size_t i = 0; i < tubes.size() && ends.size() < kept; ++i) {
     const auto near = [&](const Double3& e) { return std::abs(dot(e, tubes[i].direction)) > 0.98; };
     if (std::any_of(ends.begin(), ends.end(), near)) continue;
+    if (deadline.has_passed()) return best;
     ends.push_back(tubes[i].direction);
     const Tube end = descend(hull.vertices, tubes[i], first_step(tubes[i]), 1e-3 * first_step(tubes[i]));
     if (end.volume() < best.volume()) best = end;
@@ -168,14 +172,9 @@ class CylinderBounder {
   }
 
   double run() {
-    const auto start = std::chrono::steady_clock::now();
-    const auto late = [&] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >
-             options_.seconds;
-    };
     for (int side = 0; side < 3; ++side) make({side, 0, 0, 1, 1, 0, 0}, 0);
     while (!open_.empty() && open_.top().bound < target() && made_ < options_.max_cells) {
-      if (made_ % 16 == 0 && late()) break;
+      if (options_.deadline.has_passed()) break;
       const Cell cell = open_.top();
       open_.pop();
       const bool wide = cell.half_x >= cell.half_y;
@@ -275,7 +274,7 @@ Cylinder<double> recentred_cylinder(const PointCloud& cloud, const ConvexHull& h
 
 BoundedFit<Cylinder<double>> minimal_cylinder(const ConvexHull& hull, const MinimalCylinderOptions& options) {
   if (hull.dimension < 3) return {flat_cylinder(hull), 0};
-  Tube best = search(hull);
+  Tube best = search(hull, options.deadline);
   double bound = hull.volume * (1 - k_rounding);
   if (std::isfinite(options.gap)) {
     CylinderBounder bounder(hull, best, options);

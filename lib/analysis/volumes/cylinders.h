@@ -10,6 +10,7 @@
 
 #include "lib/analysis/volumes/bounded_fit.h"
 #include "lib/analysis/volumes/convex_hull.h"
+#include "lib/analysis/volumes/deadline.h"
 #include "lib/formats/volume.h"
 
 #include <limits>
@@ -29,7 +30,7 @@ struct MinimalCylinderOptions {
   // is found on the way. Infinity: that search alone, and the hull's volume as bound.
   double gap = 0.001;
   std::size_t max_cells = 200'000;
-  double seconds = std::numeric_limits<double>::infinity();  // the result then depends on the clock
+  Deadline deadline = {};  // of the search too, which never ends without a cylinder
 };
 
 // Flat clouds: a disc across their plane, or about a line a tube without radius; bound 0.

@@ -43,9 +43,10 @@ class Weights {
 
   // Steps until the ellipsoid of the weights, grown to hold all points, has at most (1 + gap) times the
   // bound.
-  void run(double gap, int max_steps) {
-    const double wanted = std::pow(1 + gap, 2.0 / d_);
-    for (int step = 1; step <= max_steps; ++step) {
+  void run(const MinimalEllipsoidOptions& options) {
+    const double wanted = std::pow(1 + options.gap, 2.0 / d_);
+    for (int step = 1; step <= options.max_steps; ++step) {
+      if (step % 16 == 1 && options.deadline.has_passed()) break;
       std::size_t far = 0, near = points_.size();
       for (std::size_t i = 0; i < points_.size(); ++i) {
         if (distance_[i] > distance_[far]) far = i;
@@ -194,7 +195,7 @@ BoundedFit<Ellipsoid<double>> minimal_ellipsoid(const ConvexHull& hull,
   for (int i = hull.dimension; i < 3; ++i) scale[i] = 1;
   for (Double3& p : points) p = {p.x / scale.x, p.y / scale.y, p.z / scale.z};
   Weights weights(points, hull.dimension);
-  weights.run(options.gap, options.max_steps);
+  weights.run(options);
 
   const Double3 c = weights.centre();
   std::array<double, 6> m = weights.covariance();

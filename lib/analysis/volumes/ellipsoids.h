@@ -9,6 +9,7 @@
 
 #include "lib/analysis/volumes/bounded_fit.h"
 #include "lib/analysis/volumes/convex_hull.h"
+#include "lib/analysis/volumes/deadline.h"
 #include "lib/formats/volume.h"
 
 namespace copse {
@@ -25,6 +26,7 @@ Ellipsoid<double> gaussian_ellipsoid(const PointCloud& cloud);
 struct MinimalEllipsoidOptions {
   double gap = 1e-5;  // stop when the volume is at most (1 + gap) times the bound
   int max_steps = 20'000;
+  Deadline deadline = {};
 };
 
 // Flat clouds: the minimal ellipse or segment, other semi-axes and the bound 0. O(vertices) a step, some

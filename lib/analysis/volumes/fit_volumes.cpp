@@ -82,11 +82,11 @@ Fit ball_of(const Prepared& p, const FitOptions&) {
 template <class Options>
 Options limits(const FitOptions& how, double gap) {
   Options options;
-  const bool prove = how.quality == FitQuality::exact || how.seconds > 0;
+  const bool prove = how.quality == FitQuality::exact || how.deadline.is_set();
   options.gap = prove ? gap : std::numeric_limits<double>::infinity();
-  if (how.seconds > 0) {
-    options.seconds = how.seconds;
-  } else {  // a tree has thousands of parts: what so much work does not prove is told (exact_gap)
+  options.deadline = how.deadline;
+  if (!how.deadline.is_set()) {  // a tree has thousands of parts: what so much work does not prove is told
+                                 // (exact_gap)
     if constexpr (requires { options.max_separations; }) options.max_separations = k_most_separations;
     if constexpr (requires { options.max_cells; }) options.max_cells = k_most_cells;
   }
@@ -96,15 +96,22 @@ Options limits(const FitOptions& how, double gap) {
 Fit least_box(const Prepared& p, const FitOptions& how) {
   return bounded(minimal_box(p.hull, limits<MinimalBoxOptions>(how, k_box_gap)));
 }
-Fit cheap_fit(VolumeKind kind, const char* name, const Prepared& p);
+Fit projected_circle(const Prepared& p, const FitOptions& how);
+BoundedFit<Capsule<double>> capsule_with(const Prepared& p, const SweptBoundOptions& options) {
+  const Fit circle = projected_circle(p, {FitQuality::balanced, options.deadline});
+  return minimal_capsule(p.hull, std::get<Capsule<double>>(circle.volume), options);
+}
 BoundedFit<Capsule<double>> capsule_of(const Prepared& p, const FitOptions& how) {
-  const Fit circle = cheap_fit(VolumeKind::capsule, "projected-circle", p);
-  return minimal_capsule(p.hull, std::get<Capsule<double>>(circle.volume),
-                         limits<SweptBoundOptions>(how, k_capsule_gap));
+  return capsule_with(p, limits<SweptBoundOptions>(how, k_capsule_gap));
+}
+Capsule<double> unproven_capsule(const Prepared& p, const Deadline& deadline) {
+  SweptBoundOptions options;
+  options.deadline = deadline;
+  return capsule_with(p, options).volume;
 }
 // The lozenge starts from the capsule, which no lozenge need be worse than.
 Fit least_lozenge(const Prepared& p, const FitOptions& how) {
-  if (!p.capsule) p.capsule = capsule_of(p, {}).volume;
+  if (!p.capsule) p.capsule = unproven_capsule(p, how.deadline);
   return bounded(minimal_lozenge(p.hull, *p.capsule, limits<SweptBoundOptions>(how, k_lozenge_gap)));
 }
 Fit least_capsule(const Prepared& p, const FitOptions& how) {
@@ -114,6 +121,12 @@ Fit least_capsule(const Prepared& p, const FitOptions& how) {
 }
 Fit least_cylinder(const Prepared& p, const FitOptions& how) {
   return bounded(minimal_cylinder(p.hull, limits<MinimalCylinderOptions>(how, k_cylinder_gap)));
+}
+
+Fit least_ellipsoid(const Prepared& p, const FitOptions& how) {
+  MinimalEllipsoidOptions options;
+  options.deadline = how.deadline;
+  return bounded(minimal_ellipsoid(p.hull, options));
 }
 
 // The surface's own triangles where there are some, else the vertices alone.
@@ -133,26 +146,26 @@ const std::vector<Entry>& entries() {
       {{K::sphere, "minimal", true, true}, ball_of},
       {{K::obb, "gaussian", true, false}, [](P p, O) { return plain(gaussian_box(p.cloud)); }},
       {{K::obb, "surface", true, false}, surface_box_of},
-      {{K::obb, "hull", true, false}, [](P p, O) { return plain(hull_surface_box(p.hull)); }},
-      {{K::obb, "minimal", false, true}, least_box},
+      {{K::obb, "hull", true, false, true}, [](P p, O) { return plain(hull_surface_box(p.hull)); }},
+      {{K::obb, "minimal", false, true, true}, least_box},
       {{K::capsule, "least-squares", true, false},
        [](P p, O) { return plain(least_squares_capsule(p.cloud.points)); }},
-      {{K::capsule, "projected-circle", false, false},
-       [](P p, O) { return plain(projected_circle_capsule(p.hull.vertices)); }},
-      {{K::capsule, "minimal", false, true}, least_capsule},
+      {{K::capsule, "projected-circle", false, false, true},
+       [](P p, O how) { return plain(projected_circle_capsule(p.hull.vertices, how.deadline)); }},
+      {{K::capsule, "minimal", false, true, true}, least_capsule},
       {{K::cylinder, "line-fit", true, false}, [](P p, O) { return plain(line_fit_cylinder(p.cloud)); }},
-      {{K::cylinder, "recentred", true, false},
+      {{K::cylinder, "recentred", true, false, true},
        [](P p, O) { return plain(recentred_cylinder(p.cloud, p.hull)); }},
-      {{K::cylinder, "minimal", false, true}, least_cylinder},
+      {{K::cylinder, "minimal", false, true, true}, least_cylinder},
       {{K::lozenge, "gaussian", true, false}, [](P p, O) { return plain(gaussian_lozenge(p.cloud.points)); }},
-      {{K::lozenge, "minimal", false, true}, least_lozenge},
+      {{K::lozenge, "minimal", false, true, true}, least_lozenge},
       {{K::ellipsoid, "axis-aligned", true, false},
        [](P p, O) { return plain(axis_aligned_ellipsoid(p.cloud)); }},
       {{K::ellipsoid, "gaussian", true, false}, [](P p, O) { return plain(gaussian_ellipsoid(p.cloud)); }},
-      {{K::ellipsoid, "minimal", false, true}, [](P p, O) { return bounded(minimal_ellipsoid(p.hull)); }},
-      {{K::kdop, "14", true, false}, nullptr},
-      {{K::kdop, "18", true, false}, nullptr},
-      {{K::kdop, "26", true, true}, nullptr},
+      {{K::ellipsoid, "minimal", false, true, true}, least_ellipsoid},
+      {{K::kdop, "14", true, false, true}, nullptr},
+      {{K::kdop, "18", true, false, true}, nullptr},
+      {{K::kdop, "26", true, true, true}, nullptr},
   };
   return k_entries;
 }
@@ -192,8 +205,8 @@ std::size_t index_of(VolumeKind kind, std::string_view name) {
   return index;
 }
 
-Fit cheap_fit(VolumeKind kind, const char* name, const Prepared& p) {
-  return fit_entry(index_of(kind, name), p, {});
+Fit projected_circle(const Prepared& p, const FitOptions& how) {
+  return fit_entry(index_of(VolumeKind::capsule, "projected-circle"), p, how);
 }
 
 Fit fit_by(const FitMethod& method, const Prepared& p, const FitOptions& how) {
@@ -277,7 +290,7 @@ double exact_gap(VolumeKind kind) {
 
 std::optional<FitMethod> kdop_method(std::string_view k) {
   if (!planes_of(k)) return std::nullopt;
-  return FitMethod{VolumeKind::kdop, std::string(k), true, false};
+  return FitMethod{VolumeKind::kdop, std::string(k), true, false, true};
 }
 
 Result<VolumeFitter> VolumeFitter::make(std::span<const Double3> points,

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "lib/analysis/volumes/convex_hull.h"
+#include "lib/analysis/volumes/deadline.h"
 #include "lib/analysis/volumes/volume_measures.h"
 #include "lib/formats/result.h"
 #include "lib/formats/volume_numbers.h"
@@ -28,9 +29,10 @@ enum class FitQuality {
 
 struct FitMethod {
   VolumeKind kind = VolumeKind::aabb;
-  std::string name;    // of this kind: "minimal"; of a k-DOP its k
-  bool quick = false;  // closed form or principal axes: constant time a point
-  bool least = false;  // the one of its kind that gives the least volume
+  std::string name;      // of this kind: "minimal"; of a k-DOP its k
+  bool quick = false;    // closed form or principal axes: constant time a point
+  bool least = false;    // the one of its kind that gives the least volume
+  bool on_hull = false;  // needs the convex hull, whose time is not in the fit's
   friend bool operator==(const FitMethod&, const FitMethod&) = default;
 };
 
@@ -47,9 +49,10 @@ double exact_gap(VolumeKind kind);
 
 struct FitOptions {
   FitQuality quality = FitQuality::balanced;
-  // For one search, which then goes on to a proof as far as the time allows; 0: the limits of the searches
-  // themselves, which do not depend on the machine.
-  double seconds = 0;
+  // Searches end at this time, with the best they have, and go on to a proof when there is time left. Even
+  // when it has passed every method gives a volume, and that it contains the points is always proven. Without
+  // one the limits are those of the searches themselves, which do not depend on the machine.
+  Deadline deadline = {};
 };
 
 struct FittedVolume {

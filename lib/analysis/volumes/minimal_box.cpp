@@ -23,12 +23,12 @@ FrameVolume flat_box(const ConvexHull& hull) {
 BoundedFit<OrientedBox<double>> minimal_box(const ConvexHull& hull, const MinimalBoxOptions& options) {
   if (hull.dimension < 3) return {box_in_axes(hull.boundary, flat_box(hull).axes), 0};
   const VertexWidths widths(hull.vertices);
-  FrameVolume best = search_box(hull, widths);
+  FrameVolume best = search_box(hull, widths, options.deadline);
   double bound = hull.volume * (1 - k_rounding);
   if (std::isfinite(options.gap)) {
     // What a kernel gives away counts as a part of the gap.
     const double given = measures_of(box_in_axes(hull.boundary, best.axes)).volume / best.volume;
-    BoxBoundOptions how{reachable_gap(options.gap, given), options.max_cells, options.seconds, {}};
+    BoxBoundOptions how{reachable_gap(options.gap, given), options.max_cells, options.deadline, {}};
     how.improve = [&](const Axes& axes, double volume) {
       const FrameVolume low = descend(hull.vertices, widths, {axes, volume});
       if (low.volume < best.volume * (1 - k_rounding)) best = low;

@@ -9,6 +9,7 @@
 
 #include "lib/analysis/volumes/bounded_fit.h"
 #include "lib/analysis/volumes/convex_hull.h"
+#include "lib/analysis/volumes/deadline.h"
 #include "lib/formats/volume.h"
 
 #include <cstdint>
@@ -22,8 +23,8 @@ struct MinimalBoxOptions {
   double gap = std::numeric_limits<double>::infinity();
   // The gap is given up when so many cells of rotations have been bounded (some 10^5 a second) ...
   std::size_t max_cells = 2'000'000;
-  // ... or when so long has passed. The result then depends on the clock.
-  double seconds = std::numeric_limits<double>::infinity();
+  // ... or at this time. The search comes to an end then too, but never without a box.
+  Deadline deadline = {};
 };
 
 // Flat clouds get their exact minimal rectangle, thickness as measured, and bound 0. In cloud coordinates.

@@ -15,7 +15,7 @@ Capsule<double> capsule_of(const SweptFit& fit) {
 }  // namespace
 
 BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const SweptBoundOptions& options) {
-  return minimal_capsule(hull, projected_circle_capsule(hull.vertices), options);
+  return minimal_capsule(hull, projected_circle_capsule(hull.vertices, options.deadline), options);
 }
 
 BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const Capsule<double>& projected_circle,
@@ -33,7 +33,8 @@ BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const Capsul
   const Double3 centre = minimal_sphere(points).centre;
   take({centre, centre, 0});
   take(projected_circle);
-  SweptFit fit = search_around(Swept::capsule, points);
+  if (options.deadline.has_passed()) return best;
+  SweptFit fit = search_around(Swept::capsule, points, options.deadline);
   if (options.gap < std::numeric_limits<double>::infinity()) {
     SweptBoundOptions how = options;
     how.gap =

@@ -22,7 +22,9 @@ Lozenge<double> rectangle_around(const ConvexHull& hull) {
 }  // namespace
 
 BoundedFit<Lozenge<double>> minimal_lozenge(const ConvexHull& hull, const SweptBoundOptions& options) {
-  return minimal_lozenge(hull, minimal_capsule(hull).volume, options);
+  SweptBoundOptions no_proof;
+  no_proof.deadline = options.deadline;
+  return minimal_lozenge(hull, minimal_capsule(hull, no_proof).volume, options);
 }
 
 BoundedFit<Lozenge<double>> minimal_lozenge(const ConvexHull& hull, const Capsule<double>& capsule,
@@ -36,7 +38,9 @@ BoundedFit<Lozenge<double>> minimal_lozenge(const ConvexHull& hull, const Capsul
     const Lozenge<double> whole = enclosing(l, hull.boundary);
     if (interior_volume(whole) < interior_volume(best.volume)) best.volume = whole;
   };
-  SweptFit fit = search_around(Swept::lozenge, points);
+  take(swept_segment);
+  if (options.deadline.has_passed()) return best;
+  SweptFit fit = search_around(Swept::lozenge, points, options.deadline);
   if (options.gap < std::numeric_limits<double>::infinity()) {
     const Lozenge<double> whole = enclosing(placed(fit.rectangle, fit.frame), hull.boundary);
     SweptBoundOptions how = options;
@@ -44,7 +48,6 @@ BoundedFit<Lozenge<double>> minimal_lozenge(const ConvexHull& hull, const Capsul
     best.lower_bound = bound_swept(Swept::lozenge, points, how, fit).lower_bound;
   }
   take(placed(fit.rectangle, fit.frame));
-  take(swept_segment);
   return best;
 }
 

@@ -4,7 +4,6 @@
 #include "lib/analysis/volumes/length_polytope.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <queue>
 
@@ -70,7 +69,6 @@ class BranchAndBound {
   std::vector<ForcePlane> pool_;
   std::priority_queue<Cell, std::vector<Cell>, Later> open_;
   std::size_t cells_ = 0, separations_ = 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 // The cells at the root: rotations R(g) F. A capsule's turns about its own axis are left out; its directions
@@ -271,9 +269,7 @@ void BranchAndBound::halve(const Cell& cell, const LengthPolytope& polytope) {
 }
 
 bool BranchAndBound::spent() const {
-  if (separations_ >= options_.max_separations) return true;
-  if (options_.seconds == k_infinity) return false;
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() > options_.seconds;
+  return separations_ >= options_.max_separations || options_.deadline.has_passed();
 }
 
 SweptBound BranchAndBound::run() {

@@ -7,6 +7,7 @@
 // cuts it off, or proves that no inequality can: then the cell is halved. Derivation: docs/volumes.md.
 #pragma once
 
+#include "lib/analysis/volumes/deadline.h"
 #include "lib/analysis/volumes/swept_descent.h"
 
 #include <cstddef>
@@ -19,8 +20,8 @@ struct SweptBoundOptions {
   double gap = std::numeric_limits<double>::infinity();
   // The gap is given up after so many separations (some 10^4 a second; the same result on every machine) ...
   std::size_t max_separations = 200'000;
-  // ... or after so long. The result then depends on the clock.
-  double seconds = std::numeric_limits<double>::infinity();
+  // ... or at this time.
+  Deadline deadline = {};
 };
 
 struct SweptBound {

@@ -185,11 +185,12 @@ std::vector<Axes> promising_frames(Swept kind, std::span<const Double3> points, 
 
 }  // namespace
 
-SweptFit search_around(Swept kind, std::span<const Double3> points) {
+SweptFit search_around(Swept kind, std::span<const Double3> points, const Deadline& deadline) {
   const Axes base = principal_axes(points).axes;
   std::vector<SweptDescent> scouts;
   double least = std::numeric_limits<double>::infinity();
   for (const Axes& start : promising_frames(kind, points, base)) {
+    if (!scouts.empty() && deadline.has_passed()) break;
     scouts.emplace_back(kind, points, start);
     scouts.back().run({k_rough_gap, k_rough_rounds, k_narrow, least});
     least = std::min(least, scouts.back().cost());
@@ -198,10 +199,12 @@ SweptFit search_around(Swept kind, std::span<const Double3> points) {
                    [](const SweptDescent& a, const SweptDescent& b) { return a.cost() < b.cost(); });
   SweptFit best = scouts.front().fit();
   for (SweptDescent& scout : scouts) {
+    if (deadline.has_passed()) return best;
     if (scout.least_cost() > least) continue;
     scout.run({.hopeless = least});
     if (scout.cost() < least) least = scout.cost(), best = scout.fit();
   }
+  if (deadline.has_passed()) return best;
   // A narrow descent may have ended early.
   const SweptFit again = descend_around(kind, points, best.frame);
   return cost_of(kind, again) < least ? again : best;

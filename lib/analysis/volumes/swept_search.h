@@ -6,11 +6,13 @@
 // swept_bound.h proves how far from it it can be.
 #pragma once
 
+#include "lib/analysis/volumes/deadline.h"
 #include "lib/analysis/volumes/swept_descent.h"
 
 namespace copse {
 
-// `points`: hull vertices in canonical order, at least one, |p| about 1 or less.
-SweptFit search_around(Swept kind, std::span<const Double3> points);
+// `points`: hull vertices in canonical order, at least one, |p| about 1 or less. With a deadline, as many
+// starts as the time allows, at least one.
+SweptFit search_around(Swept kind, std::span<const Double3> points, const Deadline& deadline = {});
 
 }  // namespace copse
