@@ -79,6 +79,13 @@ TEST_F(Bvfit, ACubeHasTheVolumesThatItMustHave) {
   }
 }
 
+TEST_F(Bvfit, TheMinimalSphereNamesThePointsThatHoldIt) {
+  const json j = fitted({save("four.xyz", "0 0 0\n2 0 0\n1 0.5 0\n1 -0.5 0.25\n0 0 0\n")});
+  EXPECT_EQ(of(j["sets"][0], "sphere", "minimal")["support"], json::parse("[[0.0,0.0,0.0],[2.0,0.0,0.0]]"));
+  const Outcome o = run({cube()});
+  EXPECT_NE(o.out.find("the minimal sphere is held by (0, "), std::string::npos) << o.out;
+}
+
 TEST_F(Bvfit, ExactSaysWhatItCouldNotProve) {
   const Outcome proven = run({cube(), "--quality", "exact"});
   EXPECT_EQ(proven.err.find("not proven"), std::string::npos) << proven.err;

@@ -92,6 +92,26 @@ TEST(FitVolumes, TheSearchIsNeverWorseThanTheQuickMethodsAsStored) {
   }
 }
 
+TEST(FitVolumes, TheMinimalSpheresSupportIsOnItAndHoldsIt) {
+  for (const BatterySet& set : battery::all()) {
+    const auto all = fit_all(set.points);
+    const FittedVolume& ball = of(all, VolumeKind::sphere, "minimal");
+    ASSERT_GE(ball.support.size(), 1u) << set.name;
+    ASSERT_LE(ball.support.size(), 4u) << set.name;
+    const auto& sphere = std::get<BoundingSphere<float>>(ball.volume);
+    double size = 0;
+    for (const Double3& p : set.points) size = std::max(size, length(p));
+    for (const Double3& p : ball.support) {
+      EXPECT_NE(std::find(set.points.begin(), set.points.end(), p), set.points.end()) << set.name;
+      EXPECT_NEAR(distance(p, to_double(sphere.centre)), sphere.radius, 1e-6 * size + 2e-45) << set.name;
+    }
+    const auto alone = fit_all(ball.support);
+    EXPECT_NEAR(std::get<BoundingSphere<float>>(of(alone, VolumeKind::sphere, "minimal").volume).radius,
+                sphere.radius, 1e-6 * size + 2e-45)
+        << set.name;
+  }
+}
+
 TEST(FitVolumes, KnownVolumesAreFound) {
   const auto cube = fit_all(battery::cube());
   EXPECT_NEAR(of(cube, VolumeKind::sphere, "minimal").measures.volume, 2.720699046, 1e-6);

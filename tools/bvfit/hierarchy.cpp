@@ -5,19 +5,11 @@
 #include "lib/analysis/bvh/kd_tree.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 
 #include <fmt/format.h>
 
 namespace copse::bvfit {
 namespace {
-
-bool is_item(const PartSet& part) {
-  const bool coarse = part.part == VolumePart::trunk || part.part == VolumePart::leaves ||
-                      (part.part == VolumePart::whole && part.index == k_none);
-  return !coarse && part.motion == VolumeMotion::rest;
-}
 
 // What is above an item in what the input came with: leaf groups, segments and cells apart; the file that a
 // part of a scene came in.
@@ -31,61 +23,22 @@ std::vector<std::uint32_t> original_groups(std::span<const PartSet> parts,
   return out;
 }
 
-constexpr std::array<const char*, 11> k_kinds{"kd2",    "kd3",    "kd4",      "kd8",      "kd16", "rtree2",
-                                              "rtree4", "rtree8", "clusters", "original", "flat"};
-
-// What finding all that a random ray (or plane) meets costs in tests: every child of a node that is met is
-// tested; a node is met in proportion to its surface (mean width).
-struct SearchCost {
-  double rays = 0, planes = 0;
-};
-SearchCost search_cost(const Hierarchy& h, std::span<const SetFit> fits, const Choosing& choosing) {
-  std::vector<const SetFit*> of(h.tree.nodes.size());
-  std::size_t inner = 0;
-  for (std::size_t i = 0; i < of.size(); ++i) {
-    const BoxNode& n = h.tree.nodes[i];
-    of[i] = n.item != k_none ? &fits[h.items[n.item]] : &h.inner[inner++];
-  }
-  const auto volume = [&](std::size_t i) -> const FittedVolume& { return of[i]->volumes[of[i]->chosen]; };
-  const VolumeMeasures root = volume(0).measures;
-  SearchCost cost;
-  for (std::uint32_t i = 0; i < of.size(); ++i) {
-    const BoxNode& n = h.tree.nodes[i];
-    if (n.item != k_none) continue;
-    double children = 0;
-    for (std::uint32_t c = i + 1; c < n.skip; c = h.tree.nodes[c].skip) {
-      Candidate candidate{volume(c).method.kind, {}, 0};
-      if (const auto* k = std::get_if<Kdop<float>>(&volume(c).volume)) candidate.slabs = k->normals.size();
-      children += choosing.costs.of(candidate);
-    }
-    const VolumeMeasures& m = volume(i).measures;
-    cost.rays += children * (root.surface > 0 ? m.surface / root.surface : 1);
-    cost.planes += children * (root.mean_width > 0 ? m.mean_width / root.mean_width : 1);
-  }
-  return cost;
-}
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-// T6.1 of the dissertation: the time to compute all volumes of its model 1.
-const char* seed_time(const std::string& kind) {
-  if (kind == "kd2") return "19 h 26 min";
-  if (kind == "kd3") return "8 h 8 min";
-  return kind == "kd4" ? "3 h 43 min" : "";
-}
-
 }  // namespace
 
+bool is_hierarchy_item(const PartSet& part) {
+  const bool coarse = part.part == VolumePart::trunk || part.part == VolumePart::leaves ||
+                      (part.part == VolumePart::whole && part.index == k_none);
+  return !coarse && part.motion == VolumeMotion::rest;
+}
+
 Result<void> check_hierarchy(const std::string& kind, std::span<const PartSet> parts, const Input& input) {
-  if (std::none_of(parts.begin(), parts.end(), is_item)) {
+  if (std::none_of(parts.begin(), parts.end(), is_hierarchy_item)) {
     return fail(Fault::usage, input.name, "a hierarchy needs parts to stand on",
                 "add --per groups, segments, cells or parts");
   }
-  if (!kind.empty() && std::find(k_kinds.begin(), k_kinds.end(), kind) == k_kinds.end()) {
+  if (!kind.empty() && std::find(k_hierarchies.begin(), k_hierarchies.end(), kind) == k_hierarchies.end()) {
     return fail(Fault::usage, "", fmt::format("--hierarchy knows no '{}'", kind),
-                fmt::format("use {}", fmt::join(k_kinds, ", ")));
+                fmt::format("use {}", fmt::join(k_hierarchies, ", ")));
   }
   return {};
 }
@@ -96,7 +49,7 @@ Result<Hierarchy> build_hierarchy(const std::string& kind, std::span<const PartS
   Hierarchy h;
   std::vector<DoubleBox> boxes;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!is_item(parts[i])) continue;
+    if (!is_hierarchy_item(parts[i])) continue;
     h.items.push_back(i);
     boxes.emplace_back();
     for (const Double3& p : parts[i].points) boxes.back().grow(p);
@@ -155,41 +108,6 @@ std::vector<VolumeNode> stored_nodes(const Hierarchy& h, std::span<const SetFit>
     }
   }
   return nodes;
-}
-
-Result<std::string> compare_hierarchies(std::span<const PartSet> parts, std::span<const SetFit> fits,
-                                        const Input& input, const std::vector<FitMethod>& methods,
-                                        const Options& options, const Choosing& choosing, Context& context) {
-  Stage stage = context.stage("compare");
-  const std::vector<std::string> columns{"hierarchy",          "nodes",         "depth",
-                                         "build and fit, s",   "cost of a ray", "cost of a plane",
-                                         "dissertation (T6.1)"};
-  Table table{"Hierarchies", columns, {}};
-  std::string out = fmt::format(
-      "hierarchies over {} parts ({} triangles); costs in tests of a sphere\n\n    {:<10} {:>7} {:>6} {:>12} "
-      "{:>12} {:>12}   {}\n",
-      std::count_if(parts.begin(), parts.end(), is_item), input.mesh.triangles.size(), "kind", "nodes",
-      "depth", "time, s", "a ray", "a plane", "dissertation, 394 670 faces");
-  std::size_t nodes = 0;
-  for (const std::string kind : k_kinds) {
-    const double start = now();
-    auto h = build_hierarchy(kind, parts, input);
-    if (!h) return std::unexpected(h.error());
-    if (auto ok = fit_hierarchy(*h, parts, methods, options, choosing, stage); !ok)
-      return std::unexpected(ok.error());
-    const double seconds = now() - start;
-    nodes += h->inner.size();
-    const SearchCost cost = search_cost(*h, fits, choosing);
-    out +=
-        fmt::format("    {:<10} {:>7} {:>6} {:>12.3g} {:>12.4g} {:>12.4g}   {}\n", kind, h->tree.nodes.size(),
-                    depth(h->tree), seconds, cost.rays, cost.planes, seed_time(kind));
-    table.rows.push_back({kind, std::to_string(h->tree.nodes.size()), std::to_string(depth(h->tree)),
-                          fmt::format("{:.3g}", seconds), fmt::format("{:.4g}", cost.rays),
-                          fmt::format("{:.4g}", cost.planes), seed_time(kind)});
-  }
-  stage.items(nodes, "nodes");
-  context.report().tables.push_back(std::move(table));
-  return out + "\n";
 }
 
 }  // namespace copse::bvfit

@@ -1,15 +1,23 @@
-// --hierarchy and --compare-hierarchies: volumes above the parts.
+// --hierarchy: volumes above the parts.
 #pragma once
 
 #include "lib/analysis/bvh/box_tree.h"
 #include "lib/formats/tree_volumes.h"
 #include "tools/bvfit/fits.h"
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace copse::bvfit {
+
+// What --hierarchy can be.
+inline constexpr std::array<const char*, 11> k_hierarchies{
+    "kd2", "kd3", "kd4", "kd8", "kd16", "rtree2", "rtree4", "rtree8", "clusters", "original", "flat"};
+
+// Whether a hierarchy stands on this part: at rest, and none of the coarse ones.
+bool is_hierarchy_item(const PartSet& part);
 
 struct Hierarchy {
   BoxTree tree;                    // its items are `items`
@@ -33,11 +41,5 @@ Result<void> fit_hierarchy(Hierarchy& hierarchy, std::span<const PartSet> parts,
 // The nodes as they are stored, whose sets are those of `fits` (one a part, in order) and then
 // hierarchy.inner.
 std::vector<VolumeNode> stored_nodes(const Hierarchy& hierarchy, std::span<const SetFit> fits);
-
-// Builds and fits every kind and tells what each costs to make and to test with, beside the dissertation's
-// times (T6.1).
-Result<std::string> compare_hierarchies(std::span<const PartSet> parts, std::span<const SetFit> fits,
-                                        const Input& input, const std::vector<FitMethod>& methods,
-                                        const Options& options, const Choosing& choosing, Context& context);
 
 }  // namespace copse::bvfit

@@ -1,5 +1,6 @@
 #include "tools/bvfit/run.h"
 
+#include "tools/bvfit/compare.h"
 #include "tools/bvfit/draw.h"
 #include "tools/bvfit/fits.h"
 #include "tools/bvfit/hierarchy.h"

@@ -23,6 +23,13 @@ std::string seconds_text(double s) {
                   : fmt::format("{:.3g} s", s);
 }
 
+std::string points_text(std::span<const Double3> points) {
+  std::string out;
+  for (const Double3& p : points)
+    out += fmt::format("{}({:.6g}, {:.6g}, {:.6g})", out.empty() ? "" : ", ", p.x, p.y, p.z);
+  return out;
+}
+
 std::string set_text(const SetFit& set) {
   std::string out = fmt::format("{}: {} points, {} on the hull ({})\n\n", set.name, set.points,
                                 set.hull_points, seconds_text(set.hull_seconds));
@@ -33,6 +40,10 @@ std::string set_text(const SetFit& set) {
     out += fmt::format("  {} {:<10} {:<17} {:>12.6g} {:>12} {:>9}  {:<9}\n", i == set.chosen ? '>' : ' ',
                        name_of(v.method.kind), v.method.name, v.measures.volume, excess_text(v),
                        seconds_text(v.seconds), v.certified ? "yes" : "NO");
+  }
+  for (const FittedVolume& v : set.volumes) {
+    if (!v.support.empty())
+      out += fmt::format("\n    the minimal sphere is held by {}\n", points_text(v.support));
   }
   return out + "\n";
 }
@@ -105,6 +116,13 @@ void report_fits(std::span<const SetFit> sets, Report& report) {
     for (std::size_t i = 0; i < set.volumes.size(); ++i) table.rows.push_back(row_of(set, i));
   }
   report.tables.push_back(std::move(table));
+  Table held{"What holds the minimal spheres", {"set", "points"}, {}};
+  for (const SetFit& set : full) {
+    for (const FittedVolume& v : set.volumes) {
+      if (!v.support.empty()) held.rows.push_back({set.name, points_text(v.support)});
+    }
+  }
+  if (!held.rows.empty()) report.tables.push_back(std::move(held));
   if (full.size() < sets.size()) {
     Table chosen{
         fmt::format("What was chosen for the other {} sets", sets.size() - full.size()), columns, {}};

@@ -65,6 +65,11 @@ Json volume_json(const FittedVolume& v, bool times) {
   put_numbers(j, to_double(v.volume));
   j["surface"] = v.measures.surface;
   j["mean_width"] = v.measures.mean_width;
+  if (!v.support.empty()) {
+    Json points = Json::array();
+    for (const Double3& p : v.support) points.push_back(list(p));
+    j["support"] = std::move(points);
+  }
   if (times) j["seconds"] = v.seconds;
   return j;
 }

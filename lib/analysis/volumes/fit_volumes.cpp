@@ -38,7 +38,8 @@ struct VolumeFitter::Prepared {
   ConvexHull hull;
   std::vector<Double3> corners;  // of the hull, as the caller gave them
   double hull_seconds = 0;
-  mutable std::optional<Capsule<double>> capsule;  // the least one, once it is known
+  mutable std::optional<Capsule<double>> capsule;   // the least one, once it is known
+  mutable std::vector<std::uint32_t> ball_support;  // of the minimal sphere, among the points
   // What the methods that are no searches for the least gave, by entry: each is asked for several times.
   mutable std::vector<std::optional<BoundedFit<Volume<double>>>> cheap;
 };
@@ -75,7 +76,9 @@ Fit box_of(const Prepared& p, const FitOptions&) {
 }
 
 Fit ball_of(const Prepared& p, const FitOptions&) {
-  return bounded(smallest_sphere(p.cloud).fit);
+  SupportedSphere ball = smallest_sphere(p.cloud);
+  p.ball_support = std::move(ball.support);
+  return bounded(std::move(ball.fit));
 }
 
 // How far a proof is driven: not at all, to the gap of the kind, or as far as the time allows.
@@ -339,6 +342,10 @@ std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const Fit
     if (!held || measures_of(v).volume <= out.measures.volume * k_worth) keep_if_less(v);
   }
   if (!held) return std::nullopt;
+  if (method.kind == VolumeKind::sphere && method.least) {
+    for (const std::uint32_t i : p.ball_support) out.support.push_back(p.points[i]);
+    std::sort(out.support.begin(), out.support.end(), lexicographically_less);
+  }
   // A whisker below, so that the roundings of the bound itself cannot put it above the truth.
   // The hull's volume is a bound for every kind.
   const double bound = std::max(fit.lower_bound * (1 - 1e-12), p.hull.volume * (1 - 1e-9));

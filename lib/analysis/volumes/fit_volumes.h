@@ -61,8 +61,9 @@ struct FittedVolume {
   VolumeMeasures measures;  // of the volume as stored
   double lower_bound = 0;   // of the interior volume of any volume of this kind round the points; 0: unknown
   bool certified = false;
-  double seconds = 0;          // for the fit alone; the hull is shared
-  double certify_seconds = 0;  // for rounding it outward and proving it
+  std::vector<Double3> support;  // of the minimal sphere: the points that hold it, in lexicographic order
+  double seconds = 0;            // for the fit alone; the hull is shared
+  double certify_seconds = 0;    // for rounding it outward and proving it
 };
 
 class VolumeFitter {
