@@ -12,6 +12,7 @@ namespace {
 std::vector<Limit> limits() {
   std::vector<Limit> all;
   for (const ImportLimit& l : import_limits()) all.push_back({l.name, l.value, l.unit});
+  all.push_back({"planes of a k-DOP (--methods K)", k_most_planes, "planes"});
   return all;
 }
 

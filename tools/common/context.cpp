@@ -47,7 +47,8 @@ bool may_be_rewritten(const fs::path& path) {
 }
 
 bool same_file(const fs::path& a, const fs::path& b) {
-  if (a.empty() || b.empty() || is_stdout(a) || is_stdout(b)) return false;
+  if (a.empty() || b.empty()) return false;
+  if (is_stdout(a) || is_stdout(b)) return is_stdout(a) && is_stdout(b);
   std::error_code error;
   const fs::path real_a = fs::weakly_canonical(fs::absolute(a), error),
                  real_b = fs::weakly_canonical(fs::absolute(b), error);

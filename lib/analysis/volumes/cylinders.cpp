@@ -5,6 +5,7 @@
 #include "lib/analysis/volumes/smallest_circle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <queue>
@@ -16,8 +17,9 @@ namespace {
 constexpr int k_directions = 48;   // of the fixed set of starts
 constexpr std::size_t k_kept = 3;  // of them are descended from
 // A small hull has few, deep creases: along its edges and across its faces more starts, and more are kept.
-constexpr std::size_t k_small_hull = 60, k_kept_small = 10;
-constexpr int k_rounds = 100;  // of a descent; some 40 do
+constexpr std::size_t k_small_hull = 60, k_kept_small = 16;
+constexpr std::size_t k_polished = 1, k_polished_small = 4;  // ends that are descended to the last digit
+constexpr int k_rounds = 100;                                // of a descent; some 40 do
 constexpr double k_rounding = 1e-12;
 
 double volume_of(double radius, double height) {
@@ -81,9 +83,11 @@ std::vector<Double3> starts_for(const ConvexHull& hull) {
     starts.insert(starts.end(), axes.begin(), axes.end());
   }
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-  for (int i = 0; i < k_directions; ++i) {
+  const Axes base = principal_axes(hull.vertices).axes;
+  for (int i = 0; i < k_directions; ++i) {  // they turn with the points
     const double z = (i + 0.5) / k_directions, r = std::sqrt(1 - z * z);
-    starts.push_back({r * std::cos(golden * i), r * std::sin(golden * i), z});
+    starts.push_back(base[0] * (r * std::cos(golden * i)) + base[1] * (r * std::sin(golden * i)) +
+                     base[2] * z);
   }
   if (hull.vertices.size() >= k_small_hull) return starts;
   const auto add = [&](const Double3& d) {
@@ -124,6 +128,71 @@ double first_step(const Tube& t) {
   return std::clamp(0.3 * std::min(r, h) / std::max({r, h, 1e-300}), 1e-13, 0.1);
 }
 
+// The least on a circle of directions about this one: a crease that a few fixed directions would miss crosses
+// every small circle.
+Tube least_around(std::span<const Double3> points, const Double3& direction, double step) {
+  constexpr int k_angles = 12, k_sections = 12, k_valleys = 2;
+  constexpr double k_golden = 0.6180339887498949, k_apart = 2 * std::numbers::pi / k_angles;
+  const Double3 u = any_normal(direction), v = cross(direction, u);
+  const auto at = [&](double angle) {
+    return tube_along(points, normalized(direction + (u * std::cos(angle) + v * std::sin(angle)) * step));
+  };
+  std::array<double, k_angles> volume;
+  Tube best;
+  for (int k = 0; k < k_angles; ++k) {
+    const Tube t = at(k * k_apart);
+    volume[k] = t.volume();
+    if (k == 0 || volume[k] < best.volume()) best = t;
+  }
+  std::vector<int> valleys;
+  for (int k = 0; k < k_angles; ++k) {
+    if (volume[k] <= volume[(k + 1) % k_angles] && volume[k] <= volume[(k + k_angles - 1) % k_angles])
+      valleys.push_back(k);
+  }
+  std::stable_sort(valleys.begin(), valleys.end(), [&](int a, int b) { return volume[a] < volume[b]; });
+  for (std::size_t i = 0; i < valleys.size() && i < k_valleys; ++i) {
+    double low = (valleys[i] - 1) * k_apart, high = (valleys[i] + 1) * k_apart;
+    for (int k = 0; k < k_sections; ++k) {
+      const double a = high - (high - low) * k_golden, b = low + (high - low) * k_golden;
+      const Tube left = at(a), right = at(b);
+      const bool to_left = left.volume() < right.volume();
+      (to_left ? high : low) = to_left ? b : a;
+      if ((to_left ? left : right).volume() < best.volume()) best = to_left ? left : right;
+    }
+  }
+  return best;
+}
+
+Tube polish(std::span<const Double3> points, Tube best, double step, double smallest) {
+  for (int round = 0; round < k_rounds && step > smallest; ++round) {
+    const Tube t = least_around(points, best.direction, step);
+    const bool gains = t.volume() < best.volume() * (1 - k_rounding);
+    if (gains) best = t;
+    step *= gains ? 1.5 : 0.5;
+  }
+  return best;
+}
+
+// The least of the first ends when they are descended to the last digit; what is far above is given up early.
+Tube best_polished(std::span<const Double3> points, const std::vector<Tube>& ends, std::size_t count,
+                   const Deadline& deadline) {
+  constexpr double k_first = 1.05, k_rough = 1.001;  // times the best volume
+  Tube best = ends[0];
+  std::vector<Double3> done;
+  for (std::size_t i = 0; i < ends.size() && done.size() < count && !deadline.has_passed(); ++i) {
+    if (ends[i].volume() > k_first * best.volume()) break;
+    const double step = first_step(ends[i]);
+    const auto near = [&](const Double3& d) { return length(cross(d, ends[i].direction)) < 1e-2 * step; };
+    if (std::any_of(done.begin(), done.end(), near)) continue;
+    const Tube rough = polish(points, ends[i], step * 0.1, 1e-3 * step);
+    done.push_back(rough.direction);
+    if (rough.volume() > k_rough * best.volume()) continue;
+    const Tube end = polish(points, rough, step * 1e-3, 1e-7 * step);
+    if (end.volume() < best.volume()) best = end;
+  }
+  return best;
+}
+
 Tube search(const ConvexHull& hull, const Deadline& deadline) {
   constexpr std::size_t k_least = 6;  // the world's axes and the hull's
   std::vector<Tube> tubes;
@@ -131,20 +200,20 @@ Tube search(const ConvexHull& hull, const Deadline& deadline) {
     if (tubes.size() >= k_least && deadline.has_passed()) break;
     tubes.push_back(tube_along(hull.vertices, d));
   }
-  std::stable_sort(tubes.begin(), tubes.end(),
-                   [](const Tube& a, const Tube& b) { return a.volume() < b.volume(); });
-  Tube best = tubes[0];
-  std::vector<Double3> ends;
-  const std::size_t kept = hull.vertices.size() < k_small_hull ? k_kept_small : k_kept;
-  for (std::size_t i = 0; i < tubes.size() && ends.size() < kept; ++i) {
+  const auto smaller = [](const Tube& a, const Tube& b) { return a.volume() < b.volume(); };
+  std::stable_sort(tubes.begin(), tubes.end(), smaller);
+  const bool small = hull.vertices.size() < k_small_hull;
+  std::vector<Double3> starts;
+  std::vector<Tube> ends{tubes[0]};
+  for (std::size_t i = 0; i < tubes.size() && starts.size() < (small ? k_kept_small : k_kept); ++i) {
     const auto near = [&](const Double3& e) { return std::abs(dot(e, tubes[i].direction)) > 0.98; };
-    if (std::any_of(ends.begin(), ends.end(), near)) continue;
-    if (deadline.has_passed()) return best;
-    ends.push_back(tubes[i].direction);
-    const Tube end = descend(hull.vertices, tubes[i], first_step(tubes[i]), 1e-3 * first_step(tubes[i]));
-    if (end.volume() < best.volume()) best = end;
+    if (std::any_of(starts.begin(), starts.end(), near)) continue;
+    if (deadline.has_passed()) break;
+    starts.push_back(tubes[i].direction);
+    ends.push_back(descend(hull.vertices, tubes[i], first_step(tubes[i]), 1e-3 * first_step(tubes[i])));
   }
-  return descend(hull.vertices, best, first_step(best) * 0.02, 1e-7 * first_step(best));
+  std::stable_sort(ends.begin(), ends.end(), smaller);
+  return best_polished(hull.vertices, ends, small ? k_polished_small : k_polished, deadline);
 }
 
 // --- the bound --------------------------------------------------------------------------------------------

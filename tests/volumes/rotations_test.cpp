@@ -1,0 +1,58 @@
+// The least volume round a few points is the same however they are turned: small hulls have few, deep
+// valleys, and a search that depends on the axes misses some of them.
+#include "lib/analysis/volumes/capsule.h"
+#include "lib/analysis/volumes/cylinders.h"
+#include "lib/analysis/volumes/lozenge.h"
+#include "lib/analysis/volumes/minimal_box.h"
+#include "lib/analysis/volumes/minimal_capsule.h"
+#include "lib/analysis/volumes/minimal_lozenge.h"
+#include "lib/analysis/volumes/volume_measures.h"
+#include "lib/formats/random.h"
+
+#include <array>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+using Points = std::vector<Double3>;
+
+std::array<double, 4> least_volumes(const Points& points) {
+  const ConvexHull hull = convex_hull(make_point_cloud(points).value());
+  const auto out = [&](double volume) { return hull.frame.volume_out(volume); };
+  MinimalCylinderOptions search_alone;
+  search_alone.gap = std::numeric_limits<double>::infinity();
+  return {out(measures_of(minimal_box(hull).volume).volume),
+          out(interior_volume(minimal_capsule(hull).volume)),
+          out(measures_of(minimal_cylinder(hull, search_alone).volume).volume),
+          out(interior_volume(minimal_lozenge(hull).volume))};
+}
+
+TEST(Rotations, DoNotChangeTheLeastVolumesRoundAFewPoints) {
+  constexpr std::array k_names{"box", "capsule", "cylinder", "lozenge"};
+  for (int n = 4; n <= 12; ++n) {
+    for (int set = 0; set < 2; ++set) {
+      Random random(100 * n + set);
+      const Double3 half{1, random.uniform(0.1, 1), random.uniform(0.05, 1)};
+      Points points;
+      for (int i = 0; i < n; ++i)
+        points.push_back({random.around(0, half.x), random.around(0, half.y), random.around(0, half.z)});
+      const auto base = least_volumes(points);
+      for (int k = 0; k < 3; ++k) {
+        const Axes frame =
+            turned(k_world_axes, {random.around(0, 2), random.around(0, 2), random.around(0, 2)});
+        Points there;
+        for (const Double3& p : points) there.push_back(into(frame, p));
+        const auto volumes = least_volumes(there);
+        for (std::size_t t = 0; t < k_names.size(); ++t) {
+          EXPECT_NEAR(volumes[t] / base[t], 1, 1e-6) << k_names[t] << " of " << n << " points, set " << set;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace copse
