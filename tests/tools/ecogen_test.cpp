@@ -582,6 +582,97 @@ TEST_F(Ecogen, WhatNoFrameShowsIsLeftOut) {
       EXPECT_LT(instance_of(eco, b, i).position.x, 25);
 }
 
+// The camera looks west from x = 20; east of it stand trees whose shadows a low sun throws past it.
+TEST_F(Ecogen, TreesWhoseShadowsMayFallIntoAFrameStay) {
+  write_text(
+      file("path.json"),
+      R"({"schema":"copse.path/1","keys":[{"time":0,"eye":[20,3,20],"target":[0,0,20]},{"time":1,"eye":[20,3,20],"target":[0,0,20]}]})");
+  std::vector<std::size_t> kept;
+  for (const char* sun : {"90", "30", "5"}) {
+    ASSERT_EQ(
+        run({"--camera-path", file("path.json"), "--lowest-sun", sun, "--report", file("r.json")}).status, 0);
+    kept.push_back(load().instance_count());
+    EXPECT_NE(read_text(file("r.json")).find(std::string("at least ") + sun + " degrees"), std::string::npos);
+  }
+  EXPECT_LT(kept[0], kept[2]);
+  EXPECT_LE(kept[0], kept[1]);
+  EXPECT_LE(kept[1], kept[2]);
+  EXPECT_LT(kept[2], 250u);
+}
+
+TEST_F(Ecogen, TheReportTellsWhatTheFileSavesFromWhatNeedNotBeRead) {
+  page_["types"][1]["count"] = 0;
+  const auto size = std::filesystem::file_size(file("b.tree"));
+  for (const bool pack : {false, true}) {
+    std::vector<std::string> more{"--report", file("r.json")};
+    if (pack) more.emplace_back("--pack");
+    ASSERT_EQ(run(more).status, 0);
+    const Json report = Json::parse(read_text(file("r.json")));
+    bool found = false;
+    for (const auto& table : report["tables"])
+      for (const auto& row : table["rows"]) {
+        if (table["name"] != "left out" || row[0] != "type 'b'") continue;
+        found = true;
+        EXPECT_EQ(row[2], std::to_string(65 + (pack ? size : 0)));
+        EXPECT_EQ(row[3], std::to_string(pack ? 0 : size));
+      }
+    EXPECT_TRUE(found);
+  }
+}
+
+TEST_F(Ecogen, ANumberWithoutAFractionIsWhole) {
+  page_["types"][0]["count"] = 200.0;
+  page_["seed"] = 3.0;
+  ASSERT_EQ(run().status, 0);
+  EXPECT_EQ(load().types[0].instances, 200u);
+  EXPECT_EQ(load().seed, 3u);
+  page_["types"][0]["count"] = 200.5;
+  std::filesystem::remove(file("out.eco"));
+  EXPECT_NE(refusal().find("types[0].count: 200.5"), std::string::npos);
+}
+
+TEST_F(Ecogen, ThePageIsNotWrittenUnderTheNameOfAnEcosystem) {
+  const Outcome o = run_process({"ecogen", "--new", "-o", file("out.eco")});
+  EXPECT_EQ(o.status, 2);
+  EXPECT_EQ(line_count(o.err), 1u);
+  EXPECT_FALSE(std::filesystem::exists(file("out.eco")));
+  EXPECT_EQ(run_process({"ecogen", "--new", "-o", file("new.json")}).status, 0);
+}
+
+TEST_F(Ecogen, TexturesOfThePageGiveItsMaterialsTheirMeanColour) {
+  Image image;
+  image.width = image.height = 2;
+  image.rgba = {255, 0, 0, 255, 255, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255};
+  ASSERT_TRUE(write_image(file("half.png"), image));
+  page_["materials"][0]["texture"] = "half.png";
+  ASSERT_EQ(run().status, 0);
+  const Float3 mean = load().materials[0].mean_colour;
+  EXPECT_NEAR(mean.x, 0.5, 1e-3);
+  EXPECT_EQ(mean.y, 0);
+  std::filesystem::remove(file("out.eco"));
+  for (const char* wrong : {"none.png", "page.json"}) {
+    page_["materials"][0]["texture"] = wrong;
+    const Outcome o = run();
+    EXPECT_NE(o.status, 0);
+    EXPECT_EQ(line_count(o.err), 1u) << o.err;
+    EXPECT_NE(o.err.find("materials[0].texture: "), std::string::npos) << o.err;
+  }
+}
+
+TEST_F(Ecogen, ProvenanceHasTheOptionsAndTheSources) {
+  write_text(
+      file("path.json"),
+      R"({"schema":"copse.path/1","keys":[{"time":0,"eye":[0,5,20],"target":[10,5,20]},{"time":1,"eye":[10,5,20],"target":[50,5,20]}]})");
+  ASSERT_EQ(run({"--camera-path", file("path.json"), "--view-range", "50", "--compress"}).status, 0);
+  const Json told = Json::parse(load().provenance);
+  EXPECT_EQ(told["options"]["view-range"], 50);
+  EXPECT_EQ(told["options"]["compress"], true);
+  EXPECT_EQ(told["options"]["camera-path"], "path.json");
+  EXPECT_EQ(told["options"]["lowest-sun"], 20);
+  EXPECT_EQ(told["sources"][1]["name"], "path.json");
+  EXPECT_EQ(told["sources"].size(), 2u);
+}
+
 TEST_F(Ecogen, WhatIsBeyondItsViewRangeInEveryFrameIsLeftOut) {
   write_text(
       file("path.json"),

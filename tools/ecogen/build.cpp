@@ -119,6 +119,11 @@ class Builder {
     built_.eco.seed = scene_.seed;
     for (const fs::path& texture : scene_.textures)
       built_.eco.textures.push_back({.uri = texture.string(), .mime = "", .bytes = {}});
+    built_.texture_places.resize(scene_.textures.size());
+    for (std::size_t m = scene_.materials.size(); m-- > 0;)  // the first that names it stays
+      if (scene_.materials[m].texture != k_none)
+        built_.texture_places[scene_.materials[m].texture] = fmt::format("materials[{}].texture", m);
+    built_.sources = inputs_.files();
     if (options_.path) drop_frames(*population, ground);
     if (auto done = drop_unused(*population); !done) return std::unexpected(done.error());
     if (auto done = lay_out(*population, ground); !done) return in_file(done.error(), options_.document);
@@ -301,13 +306,16 @@ class Builder {
 
   void drop_frames(Population& population, const TerrainGround& ground) {
     Stage stage = context_.stage("frames");
-    const Seen seen =
-        drop_unseen(population.instances, built_.eco.types, area_of(scene_, ground), *options_.path);
+    const Seen seen = drop_unseen(population.instances, built_.eco.types, area_of(scene_, ground),
+                                  *options_.path, options_.lowest_sun);
     built_.farthest = seen.farthest;
     if (seen.dropped > 0)
-      built_.left_out.push_back({fmt::format("{} instances", seen.dropped),
-                                 "no frame of the camera's path shows them",
-                                 seen.dropped * (scene_.exact ? 48 : 24)});
+      built_.left_out.push_back(
+          {fmt::format("{} instances", seen.dropped),
+           fmt::format("no frame of the camera's path shows them, nor their shadows on level ground while "
+                       "the sun stands at least {:g} degrees high",
+                       options_.lowest_sun),
+           seen.dropped * (scene_.exact ? sizeof(ExactInstance) : sizeof(PackedInstance))});
     stage.items(seen.dropped, "instances left out");
   }
 

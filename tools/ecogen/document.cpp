@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <variant>
@@ -117,6 +119,23 @@ Result<void> edit(Json& document, const std::string& assignment) {
   Json parsed = Json::parse(value, nullptr, false);
   *at = parsed.is_discarded() ? Json(value) : std::move(parsed);
   return {};
+}
+
+void make_whole(Json& document) {
+  std::vector<Json*> open{&document};
+  while (!open.empty()) {
+    Json& at = *open.back();
+    open.pop_back();
+    if (at.is_structured())
+      for (Json& inside : at) open.push_back(&inside);
+    if (!at.is_number_float()) continue;
+    const auto v = at.get<double>();
+    if (v != std::trunc(v) || std::abs(v) > 0x1p53) continue;
+    if (v < 0)
+      at = static_cast<std::int64_t>(v);
+    else
+      at = static_cast<std::uint64_t>(v);
+  }
 }
 
 }  // namespace copse::ecogen

@@ -21,6 +21,10 @@ Result<Json> parse_document(std::string_view text, const std::string& file);
 // '=' is JSON, or a text when it is none. Faults are of usage.
 Result<void> edit(Json& document, const std::string& assignment);
 
+// JSON Schema calls 10.0 an integer, and so do pages: numbers without a fraction become integers where they
+// are exact (up to 2^53).
+void make_whole(Json& document);
+
 // Everything the schema says. An error names the place ("types[2].scale.max"), what is wrong, and what is
 // allowed; of a key that is unknown, the nearest that is known.
 Result<void> validate(const Json& document, const std::string& file);

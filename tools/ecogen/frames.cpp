@@ -1,5 +1,6 @@
 #include "tools/ecogen/frames.h"
 
+#include "lib/analysis/ecosystem/degrees.h"
 #include "lib/formats/instance_bounds.h"
 #include "lib/runtime/block_culling.h"
 
@@ -67,14 +68,21 @@ class Frames {
 }  // namespace
 
 Seen drop_unseen(std::vector<Instance>& instances, const std::vector<TreeType>& types,
-                 const PlantedArea& area, const CameraPath& path) {
+                 const PlantedArea& area, const CameraPath& path, double lowest_sun) {
   const auto part_of = [&](const Instance& i) {
     const std::size_t at =
         cell(i.position.z, area.z0, area.z1) * k_cells + cell(i.position.x, area.x0, area.x1);
     return at * types.size() + i.type;
   };
   std::vector<DoubleBox> boxes(k_cells * k_cells * types.size());
-  for (const Instance& i : instances) boxes[part_of(i)].grow(instance_bounds(types[i.type], i));
+  const SinCos sun = sin_cos_degrees(lowest_sun);
+  const double shadow = sun.cos / sun.sin;  // of a height of 1
+  for (const Instance& i : instances) {
+    DoubleBox box = instance_bounds(types[i.type], i);
+    const double reach = shadow * box.extent().y;
+    box.min -= Double3{reach, 0, reach}, box.max += Double3{reach, 0, reach};
+    boxes[part_of(i)].grow(box);
+  }
   const Frames frames(path);
   std::vector<double> farthest(boxes.size());
   tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t b) {

@@ -6,6 +6,7 @@
 #include "lib/formats/tree_file.h"
 #include "lib/formats/tree_volumes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -74,12 +75,17 @@ Result<void> take_volumes(const TreeFile& file, TreeType& type) {
 
 }  // namespace
 
+void Inputs::take(const fs::path& file) {
+  context_.read(file, true);
+  if (std::find(files_.begin(), files_.end(), file) == files_.end()) files_.push_back(file);
+}
+
 Result<const ValueMap*> Inputs::map(const MapSource& source) {
   auto& known = maps_[source];
   if (known) return known.get();
   const auto image = read_float_image(source.file);
   if (!image) return std::unexpected(image.error());
-  context_.read(source.file, true);
+  take(source.file);
   auto values = values_of(*image, source);
   if (!values) return std::unexpected(values.error());
   known = std::move(*values);
@@ -97,7 +103,7 @@ Result<const TintMap*> Inputs::tint(const fs::path& file) {
   if (known) return known.get();
   const auto image = read_image(file);
   if (!image) return std::unexpected(image.error());
-  context_.read(file, true);
+  take(file);
   known = std::make_unique<TintMap>();
   known->width = static_cast<std::uint32_t>(image->width);
   known->height = static_cast<std::uint32_t>(image->height);

@@ -22,8 +22,13 @@ class Inputs {
   Result<const TintMap*> tint(const std::filesystem::path& file);
   Result<const ValueMap*> map(const std::optional<MapSource>& source);  // null when there is none
 
+  // Of all maps and tints, in the order in which they were read first, each once.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+
  private:
+  void take(const std::filesystem::path& file);
   Context& context_;
+  std::vector<std::filesystem::path> files_;
   std::map<MapSource, std::unique_ptr<ValueMap>> maps_;
   std::map<std::filesystem::path, std::unique_ptr<TintMap>> tints_;
 };

@@ -1,7 +1,9 @@
 #include "tools/ecogen/leave_out.h"
 
-#include "lib/formats/mapped_file.h"
+#include "lib/formats/ecosystem_header.h"
+#include "lib/formats/materials.h"
 #include "tools/ecogen/pack_tree.h"
+#include "tools/ecogen/page_textures.h"
 
 #include <algorithm>
 #include <limits>
@@ -38,13 +40,20 @@ void mark(std::vector<bool>& used, std::uint32_t index) {
   if (index != k_none) used[index] = true;
 }
 
-void drop_types(std::vector<Instance>& instances, Built& built) {
+// A file that would have been named would be read by the player; a packed one is in the ecosystem's file.
+LeftOut without_file(std::string what, std::string why, std::uint64_t record, std::uint64_t file, bool pack) {
+  return {std::move(what), std::move(why), record + (pack ? file : 0), pack ? 0 : file};
+}
+
+void drop_types(std::vector<Instance>& instances, bool pack, Built& built) {
   std::vector<bool> used(built.eco.types.size());
   for (const Instance& i : instances) used[i.type] = true;
-  for (std::size_t t = 0; t < used.size(); ++t)
+  for (std::size_t t = 0; t < used.size(); ++t) {
+    const TreeType& type = built.eco.types[t];
     if (!used[t])
-      built.left_out.push_back({fmt::format("type '{}'", built.eco.types[t].name), "it has no instances",
-                                size_of(built.eco.types[t].uri)});
+      built.left_out.push_back(without_file(fmt::format("type '{}'", type.name), "it has no instances",
+                                            k_type_record + type.name.size(), size_of(type.uri), pack));
+  }
   keep(built.farthest, used);
   const auto number = keep(built.eco.types, used);
   for (Instance& i : instances) i.type = number[i.type];
@@ -58,7 +67,7 @@ void drop_materials(std::vector<Instance>& instances, Built& built) {
   for (std::size_t m = 0; m < used.size(); ++m)
     if (!used[m])
       built.left_out.push_back({fmt::format("material '{}'", e.materials[m].name), "nothing is made of it",
-                                88 + e.materials[m].name.size()});
+                                k_material_record + e.materials[m].name.size()});
   const auto number = keep(e.materials, used);
   const auto renumber = [&](std::uint32_t& m) {
     if (m != k_none) m = number[m];
@@ -67,23 +76,19 @@ void drop_materials(std::vector<Instance>& instances, Built& built) {
   for (Instance& i : instances) renumber(i.trunk_material), renumber(i.leaf_material);
 }
 
-void drop_textures(Built& built) {
+void drop_textures(bool pack, Built& built) {
   Ecosystem& e = built.eco;
   std::vector<bool> used(e.textures.size());
   for (const Material& m : e.materials) mark(used, m.texture);
   for (std::size_t t = 0; t < used.size(); ++t)
     if (!used[t])
-      built.left_out.push_back({fmt::format("texture {}", e.textures[t].uri),
-                                "no material that is used has it", size_of(e.textures[t].uri)});
+      built.left_out.push_back(without_file(fmt::format("texture {}", e.textures[t].uri),
+                                            "no material that is used has it", k_texture_record,
+                                            size_of(e.textures[t].uri), pack));
+  keep(built.texture_places, used);
   const auto number = keep(e.textures, used);
   for (Material& m : e.materials)
     if (m.texture != k_none) m.texture = number[m.texture];
-}
-
-std::string relative_name(const fs::path& file, const fs::path& folder) {
-  std::error_code error;
-  const fs::path from = fs::absolute(folder.empty() ? "." : folder, error).lexically_normal();
-  return fs::absolute(file, error).lexically_normal().lexically_proximate(from).generic_string();
 }
 
 // What the instances ask of each type.
@@ -116,8 +121,8 @@ void drop_volumes(const std::vector<TreeUse>& uses, Built& built, Context& conte
   }
 }
 
-// Trees and textures by name, relative to the output's folder, or packed.
-Result<void> resolve_files(const std::vector<TreeUse>& uses, const BuildOptions& options, Built& built,
+// By name, relative to the output's folder, or packed.
+Result<void> resolve_trees(const std::vector<TreeUse>& uses, const BuildOptions& options, Built& built,
                            Context& context) {
   for (std::size_t t = 0; t < uses.size(); ++t) {
     TreeType& type = built.eco.types[t];
@@ -130,18 +135,6 @@ Result<void> resolve_files(const std::vector<TreeUse>& uses, const BuildOptions&
       type.uri = relative_name(type.uri, options.folder);
     }
   }
-  for (Texture& texture : built.eco.textures) {
-    const fs::path path = texture.uri;
-    const auto file = MappedFile::open(path);
-    if (!file) return std::unexpected(file.error());
-    context.read(path, true);
-    if (options.pack) {
-      texture.bytes.assign(file->bytes().begin(), file->bytes().end());
-      texture.uri.clear();
-    } else {
-      texture.uri = relative_name(path, options.folder);
-    }
-  }
   return {};
 }
 
@@ -149,12 +142,13 @@ Result<void> resolve_files(const std::vector<TreeUse>& uses, const BuildOptions&
 
 Result<void> leave_out(std::vector<Instance>& instances, const BuildOptions& options, Built& built,
                        Context& context) {
-  drop_types(instances, built);
+  drop_types(instances, options.pack, built);
   drop_materials(instances, built);
-  drop_textures(built);
+  drop_textures(options.pack, built);
   const std::vector<TreeUse> uses = uses_of(instances, built);
   drop_volumes(uses, built, context);
-  return resolve_files(uses, options, built, context);
+  if (auto done = resolve_trees(uses, options, built, context); !done) return done;
+  return take_page_textures(options, built, context);
 }
 
 }  // namespace copse::ecogen

@@ -51,6 +51,13 @@ void add_options(CLI::App& app, Options& o) {
   frames->add_option("--camera-path", o.camera_path, "keys of a camera's path, as treeplay --path takes them")
       ->type_name("FILE.json");
   frames
+      ->add_option("--lowest-sun", o.lowest_sun,
+                   "degrees above the horizon: with --camera-path trees stay whose shadows may fall into a "
+                   "frame while the sun stands at least so high; 90: none for that reason")
+      ->check(number_between(1, 90))
+      ->type_name("DEGREES")
+      ->capture_default_str();
+  frames
       ->add_option("--view-range", o.view_range,
                    "metres; nothing is drawn farther away, whatever view_range its type has")
       ->check(number_between(0, 1e9))

@@ -15,7 +15,8 @@ struct Options {
   std::vector<std::string> edits;
   bool pack = false, compress = false, glb_nodes = false;
   std::filesystem::path instances, camera_path;
-  double view_range = 0;  // m; 0: no limit
+  double view_range = 0;   // m; 0: no limit
+  double lowest_sun = 20;  // degrees
   std::vector<std::filesystem::path> exports;
 };
 

@@ -32,29 +32,54 @@ Result<Scene> read_page(const Options& options, Context& context) {
   if (!document) return std::unexpected(document.error());
   for (const std::string& assignment : options.edits)
     if (auto done = edit(*document, assignment); !done) return std::unexpected(done.error());
+  make_whole(*document);
   if (auto valid = validate(*document, name); !valid) return std::unexpected(valid.error());
   auto scene = read_scene(*document, options.input);
   if (scene && context.options().seed != 0) scene->seed = context.options().seed;
   return scene;
 }
 
-// Nothing of the number of threads, of folders or of the time: the same page gives the same bytes.
-std::string provenance(const Options& options, const Scene& scene, const std::string& page_hash) {
+// Nothing of the number of threads, of folders or of the time: the same page gives the same bytes. Trees are
+// not among the sources: their types have their hashes.
+Result<std::string> provenance(const Options& options, const Scene& scene,
+                               const std::vector<fs::path>& maps) {
   nlohmann::ordered_json json = {{"tool", "ecogen"}, {"version", COPSE_VERSION}};
-  json["options"] = {{"seed", scene.seed}, {"pack", options.pack}, {"edit", options.edits}};
-  json["sources"] =
-      nlohmann::ordered_json::array({{{"name", options.input.filename().string()}, {"hash", page_hash}}});
+  json["options"] = {{"seed", scene.seed},
+                     {"pack", options.pack},
+                     {"compress", options.compress},
+                     {"edit", options.edits},
+                     {"view-range", options.view_range}};
+  std::vector<fs::path> files{options.input};
+  if (!options.instances.empty()) {
+    json["options"]["instances"] = options.instances.filename().string();
+    files.push_back(options.instances);
+  }
+  if (!options.camera_path.empty()) {
+    json["options"]["camera-path"] = options.camera_path.filename().string();
+    json["options"]["lowest-sun"] = options.lowest_sun;
+    files.push_back(options.camera_path);
+  }
+  files.insert(files.end(), maps.begin(), maps.end());
+  json["sources"] = nlohmann::ordered_json::array();
+  for (const fs::path& file : files) {
+    const auto record = hash_file(file);
+    if (!record) return std::unexpected(record.error());
+    json["sources"].push_back({{"name", file.filename().string()}, {"hash", record->hash}});
+  }
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void tell_left_out(const Built& built, Context& context) {
-  Table table{"left out", {"what", "why", "bytes"}, {}};
-  std::uint64_t bytes = 0;
+  Table table{"left out", {"what", "why", "bytes of this file", "bytes of others, not to be read"}, {}};
+  std::uint64_t here = 0, elsewhere = 0;
+  const auto row = [&](const std::string& what, const std::string& why, std::uint64_t a, std::uint64_t b) {
+    table.rows.push_back({what, why, std::to_string(a), std::to_string(b)});
+  };
   for (const LeftOut& l : built.left_out) {
-    table.rows.push_back({l.what, l.why, std::to_string(l.bytes)});
-    bytes += l.bytes;
+    row(l.what, l.why, l.bytes, l.bytes_elsewhere);
+    here += l.bytes, elsewhere += l.bytes_elsewhere;
   }
-  if (table.rows.size() > 1) table.rows.push_back({"in all", "", std::to_string(bytes)});
+  if (table.rows.size() > 1) row("in all", "", here, elsewhere);
   if (!table.rows.empty()) context.report().tables.push_back(std::move(table));
 }
 
@@ -104,15 +129,16 @@ Result<void> make(const Options& options, Context& context) {
                      {.folder = options.output.parent_path(),
                       .document = options.input,
                       .path = *path ? &**path : nullptr,
+                      .lowest_sun = options.lowest_sun,
                       .view_range = options.view_range,
                       .pack = options.pack},
                      context);
   if (!built) return std::unexpected(built.error());
   tell_left_out(*built, context);
   if (auto drawn = draw_map(built->eco, context); !drawn) return drawn;
-  const auto page = hash_file(options.input);
-  if (!page) return std::unexpected(page.error());
-  built->eco.provenance = provenance(options, *scene, page->hash);
+  auto told = provenance(options, *scene, built->sources);
+  if (!told) return std::unexpected(told.error());
+  built->eco.provenance = std::move(*told);
   for (const fs::path& file : options.exports)
     if (auto done = export_ecosystem(built->eco, options.output.parent_path(), file,
                                      options.glb_nodes ? Instancing::nodes : Instancing::extension, context);
@@ -130,6 +156,10 @@ Result<void> make(const Options& options, Context& context) {
 Result<void> run(const Options& options, Context& context) {
   if (options.print_schema && options.print_template)
     return fail(Fault::usage, "", "--new and --schema are asked for at once", "ask for one of them");
+  if ((options.print_schema || options.print_template) && options.output.extension() == ".eco")
+    return fail(Fault::usage, options.output.string(),
+                "is the name of an ecosystem, and this is a page of JSON",
+                "name it NAME.json, and make the ecosystem of that");
   if (options.print_schema || options.print_template)
     return context.write(options.output.empty() ? "-" : options.output,
                          options.print_schema ? k_schema : k_template);
