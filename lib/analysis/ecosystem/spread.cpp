@@ -30,12 +30,6 @@ std::uint32_t Spreader::cell_of(std::uint64_t piece, std::uint64_t pieces, Rando
   return cells_[static_cast<std::size_t>(std::min(found, cumulative_.end() - 1) - cumulative_.begin())];
 }
 
-GroundPlace Spreader::draw(std::uint64_t piece, std::uint64_t pieces, Random& random) const {
-  const std::uint32_t cell = cell_of(piece, pieces, random);
-  const double u = random.uniform(), v = random.uniform();
-  return field_.point(cell, u, v);
-}
-
 GroundPlace Spreader::draw(std::uint64_t piece, std::uint64_t pieces, const PlacementTest& test,
                            Random& random) const {
   const std::uint32_t cell = cell_of(piece, pieces, random);

@@ -22,10 +22,8 @@ class Spreader {
   explicit Spreader(const DensityField& field);
 
   double total() const { return cumulative_.empty() ? 0 : cumulative_.back(); }
-  // A point of piece `piece` of `pieces`: uniform in mass; inside a cell uniform in area. total() > 0.
-  GroundPlace draw(std::uint64_t piece, std::uint64_t pieces, Random& random) const;
-  // The same, but inside a cell as `test` weighs its points, and only where it allows. No point comes twice,
-  // however little of the cell is allowed.
+  // A point of piece `piece` of `pieces`: uniform in mass; inside a cell as `test` weighs its points, and
+  // only where it allows. No point comes twice, however little of the cell is allowed. total() > 0.
   GroundPlace draw(std::uint64_t piece, std::uint64_t pieces, const PlacementTest& test,
                    Random& random) const;
 
