@@ -1,7 +1,7 @@
 // Leaves at a tenth, a fiftieth, ... of their triangles: what leaf collapse and its peers keep of them.
 //
-//   bench_lod_leaves [--views N] [--ratio R] [--quality fast|balanced|exact] [--no-peers] [--projections]
-//   TREE...      .tree or .stree files that hold leaves
+//   bench_lod_leaves [--views N] [--ratio R] [--quality fast|balanced|exact] [--no-peers] [--speed]
+//   [--projections] TREE...      .tree or .stree files that hold leaves
 //
 // Each ratio of triangles at the size in pixels at which it would be shown; times are of all threads
 // together.
@@ -69,6 +69,7 @@ struct Options {
   int views = 42;
   double only = 0;  // one ratio; 0: all of them
   bool peers = true;
+  bool speed = false;  // instead: triangles a second of every quality
   CollapseQuality quality = CollapseQuality::balanced;
   bool projections = false;  // instead: how wrong the estimates for lines and points are
 };
@@ -93,6 +94,25 @@ void projections(const std::string& name, const Tree& tree) {
   }
 }
 
+// Million triangles a processor second: each quality for the whole spectrum, meshoptimizer for the one level
+// at a tenth. What takes long is left out of large trees.
+void speeds(const std::string& name, const Tree& tree, const DrawnMesh& source, const Looks& looks) {
+  const auto rate = [&](const auto& work) {
+    const auto start = Clock::now();
+    work();
+    return double(source.triangles.size()) / std::max(seconds_since(start), 1e-6) / 1e6;
+  };
+  fmt::print("{:24} {:8}", name, source.triangles.size());
+  for (const CollapseQuality q : {CollapseQuality::fast, CollapseQuality::balanced, CollapseQuality::exact}) {
+    const std::size_t most = q == CollapseQuality::exact ? 100'000 : 1'000'000;
+    if (q != CollapseQuality::fast && source.triangles.size() > most)
+      fmt::print(" {:>8}", "-");
+    else
+      fmt::print(" {:8.3f}", rate([&] { collapse_spectrum(tree, looks, {.quality = q}); }));
+  }
+  fmt::print(" {:8.3f}\n", rate([&] { meshopt(source, source.triangles.size() / 10, false); }));
+}
+
 void bench(const std::filesystem::path& path, const Options& options) {
   const auto file = TreeFile::open(path);
   if (!file) return fmt::print("{}\n", to_line(file.error(), "bench"));
@@ -113,6 +133,7 @@ void bench(const std::filesystem::path& path, const Options& options) {
   });
   const Looks looks{tree.materials, masks};
   const std::string name = path.stem().string();
+  if (options.speed) return speeds(name, tree, source, looks);
   const auto start = Clock::now();
   const Spectrum spectrum = collapse_spectrum(tree, looks, {.quality = options.quality});
   const double collapse_seconds = seconds_since(start);
@@ -150,6 +171,8 @@ int main(int argc, char** argv) {
     const std::string argument = argv[i];
     if (argument == "--no-peers")
       options.peers = false;
+    else if (argument == "--speed")
+      options.speed = true;
     else if (argument == "--projections")
       options.projections = true;
     else if (argument == "--quality" && i + 1 < argc)

@@ -175,6 +175,23 @@ TEST(LeafViews, AnEstimateComesNearToWhatAllPixelsSay) {
   }
 }
 
+TEST(LeafViews, WhatIsInTheBoxIsCountedAsInTheWholeBall) {
+  const std::vector<Triangles> crown = crowd(0.2);
+  std::vector<ViewedLeaf> leaves;
+  DoubleBox box;
+  for (const Triangles& t : crown) {
+    leaves.push_back(t.leaf());
+    for (const SpectrumVertex& v : t.vertices) box.grow(to_double(v.position));
+  }
+  LeafViews ball({}, 4, 0.04, 0), cut({}, 4, 0.04, 0, LeafViews::k_most_views, box);
+  const auto a = ball.look(leaves), b = cut.look(leaves);
+  for (std::size_t l = 0; l < leaves.size(); ++l) {
+    // Pixels are where they were but for rounding.
+    EXPECT_NEAR(a[l].total, b[l].total, 2);
+    EXPECT_NEAR(a[l].sole, b[l].sole, 2);
+  }
+}
+
 TEST(LeafViews, FewerViewsCountAsMuchInEachOfThem) {
   const Triangles one = square({}, 0.5);
   const std::vector<ViewedLeaf> leaves{one.leaf()};

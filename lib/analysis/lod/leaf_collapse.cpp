@@ -21,7 +21,7 @@ namespace {
 
 using Face = DrawnLeaf::Face;
 
-constexpr double k_prior = 40;      // pixels that the field's word on a leaf is worth
+constexpr double k_prior = 20;      // pixels that the field's word on a leaf is worth
 constexpr double k_good = 0.1;      // pixels of change in all views: no better successor is looked for
 constexpr double k_layers = 7;      // of leaves, behind which nothing is seen whichever way it lies
 constexpr double k_seen = 0.001;    // of its pixels, what a core may change in the picture when it grows
@@ -38,7 +38,7 @@ struct Effort {
 };
 
 Effort effort_of(CollapseQuality quality) {
-  return quality == CollapseQuality::exact ? Effort{5, 0.12, 1.6, 4, true} : Effort{3, 0.25, 1.6, 1, false};
+  return quality == CollapseQuality::exact ? Effort{5, 0.12, 1.6, 4, true} : Effort{3, 0.25, 1.6, 2, false};
 }
 
 int cells_for(std::size_t triangles) {
@@ -181,8 +181,8 @@ class Collapse {
     if (views_ && !(pixel > effort_.sharper * asked_)) return;
     asked_ = std::isfinite(pixel) ? pixel : 0;
     // Of very many leaves each matters less.
-    const int views = effort_.every_pixel || alive_.size() < 1000 ? LeafViews::k_most_views : 6;
-    views_.emplace(offset_, 0.55 * length(box_.extent()), asked_, turns_++, views);
+    const int views = effort_.every_pixel || alive_.size() < 2000 ? LeafViews::k_most_views : 6;
+    views_.emplace(offset_, 0.55 * length(box_.extent()), asked_, turns_++, views, box_);
     views_->set_source(source_);
   }
 

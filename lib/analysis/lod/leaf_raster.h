@@ -19,7 +19,7 @@ namespace copse {
 struct LeafEye {
   Float3 right, down, toward;  // per pixel; toward: metres
   float x = 0, y = 0;          // where the ball's centre falls
-  int size = 0;                // of the square picture
+  int width = 0, height = 0;   // of the picture
 
   LeafEye() = default;
   explicit LeafEye(const OrthographicView& view)
@@ -28,7 +28,8 @@ struct LeafEye {
         toward(to_float(view.toward)),
         x(static_cast<float>(view.width / 2.0)),
         y(static_cast<float>(view.height / 2.0)),
-        size(view.width) {}
+        width(view.width),
+        height(view.height) {}
   Float3 project(const Float3& p) const { return {dot(p, right) + x, dot(p, down) + y, dot(p, toward)}; }
 };
 
@@ -40,7 +41,7 @@ struct Range {
 
 // Rounding by casts: ceil and floor are calls. Of anything, cut to [-1, size].
 inline int floored(float v, int size) {
-  return static_cast<int>(std::clamp(v, -1.0f, static_cast<float>(size)) + 1) - 1;
+  return static_cast<int>(std::min(std::max(-1.0f, v), static_cast<float>(size)) + 1) - 1;  // NaN: -1
 }
 inline int raised(float v, int size) {
   const int below = floored(v, size);
@@ -72,13 +73,13 @@ struct Edge {
 // by row. Corners as LeafEye projects them; depth grows toward the viewer. Cost: rows and pixels covered.
 template <class See>
 void for_each_leaf_pixel(const std::array<Float3, 3>& corners, const std::array<Float2, 3>& texcoords,
-                         const AlphaMask* mask, int size, See&& see) {
+                         const AlphaMask* mask, int width, int height, See&& see) {
   const auto& [a, b, c] = corners;
   const Float3 p = b - a, q = c - a;
   const float area = p.x * q.y - p.y * q.x;
   if (area == 0 || !std::isfinite(area)) return;
-  const int top = std::max(leaf_raster::raised(std::min({a.y, b.y, c.y}) - 0.5f, size), 0);
-  const int bottom = std::min(leaf_raster::floored(std::max({a.y, b.y, c.y}) - 0.5f, size), size - 1);
+  const int top = std::max(leaf_raster::raised(std::min({a.y, b.y, c.y}) - 0.5f, height), 0);
+  const int bottom = std::min(leaf_raster::floored(std::max({a.y, b.y, c.y}) - 0.5f, height), height - 1);
   if (top > bottom) return;
   const float side = area > 0 ? 1.0f : -1.0f, whole = std::abs(area), per = 1 / whole;
   const float qx = side * q.x, qy = side * q.y, px = side * p.x, py = side * p.y, dx = 0.5f - a.x;
@@ -86,10 +87,10 @@ void for_each_leaf_pixel(const std::array<Float3, 3>& corners, const std::array<
   for (int y = top; y <= bottom; ++y) {
     const float dy = static_cast<float>(y) + 0.5f - a.y;
     const float of_b = dx * qy - dy * qx, of_c = dy * px - dx * py;  // twice their areas, at column 0
-    leaf_raster::Range columns{0, size - 1};
-    along_q.cut<false>(of_b, size, columns), along_p.cut<true>(of_c, size, columns);
-    across.cut<true>(whole - of_b - of_c, size, columns);
-    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(size);
+    leaf_raster::Range columns{0, width - 1};
+    along_q.cut<false>(of_b, width, columns), along_p.cut<true>(of_c, width, columns);
+    across.cut<true>(whole - of_b - of_c, width, columns);
+    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
     for (int x = columns.first; x <= columns.last; ++x) {
       const float v = (of_b + static_cast<float>(x) * qy) * per,
                   w = (of_c - static_cast<float>(x) * py) * per;

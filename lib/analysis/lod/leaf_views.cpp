@@ -15,7 +15,8 @@ namespace {
 
 constexpr int k_narrowest = 16, k_widest = 512;
 constexpr int k_block = 4;                // pixels: coverage is balanced over three by three such blocks
-constexpr double k_whole = 20;            // the same for the coverage of the whole crown
+constexpr double k_whole = 40;            // the same for the coverage of the whole crown
+constexpr double k_most_whole = 1.5;      // ... at most
 constexpr float k_balance = 4;            // of a pixel's value, how much the balance round it counts
 constexpr int k_fewest = 4, k_most = 24;  // points of a triangle that stand for its pixels
 
@@ -49,18 +50,38 @@ std::vector<Double3> half_sphere(std::uint64_t turn, int views) {
   return out;
 }
 
+// The view of what is in the box: all of it when that is empty.
+LeafEye cropped(const OrthographicView& view, const DoubleBox& box) {
+  LeafEye eye(view);
+  if (box.empty()) return eye;
+  DoubleBox on;
+  for (int c = 0; c < 8; ++c)
+    on.grow(view.project({(c & 1) != 0 ? box.max.x : box.min.x, (c & 2) != 0 ? box.max.y : box.min.y,
+                          (c & 4) != 0 ? box.max.z : box.min.z}));
+  const auto cut = [](double low, double high, float& at, int& size) {
+    const int from = static_cast<int>(std::clamp(low - 1, 0.0, double(size - 1)));
+    const int to = static_cast<int>(std::clamp(high + 2, double(from + 1), double(size)));
+    at -= static_cast<float>(from), size = to - from;
+  };
+  cut(on.min.x, on.max.x, eye.x, eye.width), cut(on.min.y, on.max.y, eye.y, eye.height);
+  return eye;
+}
+
 }  // namespace
 
-LeafViews::LeafViews(const Double3& centre, double radius, double pixel, std::uint64_t turn, int views)
+LeafViews::LeafViews(const Double3& centre, double radius, double pixel, std::uint64_t turn, int views,
+                     const DoubleBox& box)
     : centre_(centre) {
   const double wanted = pixel > 0 && radius > 0 ? 2 * radius / pixel : k_narrowest;
   const int size = static_cast<int>(std::clamp<double>(std::ceil(wanted), k_narrowest, k_widest));
+  first_.push_back(0);
   for (const Double3& d : half_sphere(turn, std::clamp(views, 1, k_most_views))) {
     const OrthographicView view = view_of_sphere(centre, radius, d, size);
-    eyes_.emplace_back(view);
+    eyes_.push_back(cropped(view, box));
+    first_.push_back(first_.back() + static_cast<std::size_t>(eyes_.back().width) *
+                                         static_cast<std::size_t>(eyes_.back().height));
     pixel_ = view.pixel;
   }
-  pixels_ = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
   per_step_ = radius > 0 ? static_cast<float>(0x1p29 / radius) : 0;
 }
 
@@ -88,7 +109,7 @@ template <class See>
 void LeafViews::draw(const Local& t, std::size_t view, See&& see) const {
   const LeafEye& eye = eyes_[view];
   for_each_leaf_pixel({eye.project(t.corners[0]), eye.project(t.corners[1]), eye.project(t.corners[2])},
-                      t.texcoords, t.mask, eye.size, see);
+                      t.texcoords, t.mask, eye.width, eye.height, see);
 }
 
 template <class See>
@@ -111,14 +132,14 @@ void LeafViews::sample(const ViewedLeaf& leaf, See&& see) const {
       for (int i = 0; i < points; ++i) {
         const auto [s, r] = k_points[(first + i) % k_most];
         const float x = from.x + s * along.x + r * across.x, y = from.y + s * along.y + r * across.y;
-        if (!(x >= 0 && y >= 0 && x < static_cast<float>(eye.size) && y < static_cast<float>(eye.size)))
+        if (!(x >= 0 && y >= 0 && x < static_cast<float>(eye.width) && y < static_cast<float>(eye.height)))
           continue;
         if (mask != nullptr && !mask->passes(uv[0].x + s * (uv[1].x - uv[0].x) + r * (uv[2].x - uv[0].x),
                                              uv[0].y + s * (uv[1].y - uv[0].y) + r * (uv[2].y - uv[0].y)))
           continue;
         const std::size_t at_pixel =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(eye.size) + static_cast<std::size_t>(x);
-        see(seen_[v * pixels_ + at_pixel], from.z + s * along.z + r * across.z, weight);
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(eye.width) + static_cast<std::size_t>(x);
+        see(seen_[first_[v] + at_pixel], from.z + s * along.z + r * across.z, weight);
       }
     }
   }
@@ -126,9 +147,9 @@ void LeafViews::sample(const ViewedLeaf& leaf, See&& see) const {
 
 void LeafViews::set_source(std::span<const ViewedLeaf> leaves) {
   const Scene drawn = scene(leaves);
-  source_.assign(eyes_.size() * pixels_, 0);
+  source_.assign(first_.back(), 0);
   tbb::parallel_for(std::size_t{0}, eyes_.size(), [&](std::size_t v) {
-    const auto picture = std::span(source_).subspan(v * pixels_, pixels_);
+    const auto picture = of_view(source_, v);
     for (const Local& t : drawn.triangles) draw(t, v, [&](std::size_t p, float) { picture[p] = 1; });
   });
   source_count_ = 0;
@@ -142,7 +163,7 @@ void LeafViews::look(const Scene& scene, std::size_t view, std::vector<Count>& c
   for (std::uint32_t l = 0; l < counts.size(); ++l) {
     const std::uint32_t begin = scene.first[l], end = scene.first[l + 1];
     const bool folded = end - begin > 2;
-    if (folded && last.empty()) last.assign(pixels_, k_none);
+    if (folded && last.empty()) last.assign(picture.size(), k_none);
     std::uint32_t total = 0;
     const auto see = [&](std::size_t at, float depth) {
       Pixel& p = picture[at];
@@ -165,7 +186,7 @@ void LeafViews::look(const Scene& scene, std::size_t view, std::vector<Count>& c
 }
 
 std::vector<LeafViews::Count> LeafViews::look(std::span<const ViewedLeaf> leaves) {
-  seen_.assign(eyes_.size() * pixels_, {});
+  seen_.assign(first_.back(), {});
   source_.resize(seen_.size(), 0);
   std::vector<std::vector<Count>> counts(eyes_.size());
   const Scene drawn = scene(leaves);
@@ -183,26 +204,28 @@ std::vector<LeafViews::Count> LeafViews::look(std::span<const ViewedLeaf> leaves
 // Values the pixels of a view by how much is covered too much round each of them, and of the whole crown.
 void LeafViews::balance(std::size_t view) {
   const std::span<Pixel> picture = pixels_of(view);
-  const auto source = std::span(source_).subspan(view * pixels_, pixels_);
-  const int size = eyes_[view].size, blocks = (size + k_block - 1) / k_block;
-  const auto too_much = static_cast<float>(std::clamp(k_whole * (coverage() - 1), -1.0, 1.0));
-  std::vector<float> sum(static_cast<std::size_t>(blocks) * blocks, 0);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      const std::size_t p = static_cast<std::size_t>(y) * size + x;
-      sum[static_cast<std::size_t>(y / k_block) * blocks + x / k_block] +=
+  const auto source = of_view(source_, view);
+  const int width = eyes_[view].width, height = eyes_[view].height;
+  const int columns = (width + k_block - 1) / k_block, rows = (height + k_block - 1) / k_block;
+  const auto too_much =
+      static_cast<float>(std::clamp(k_whole * (coverage() - 1), -k_most_whole, k_most_whole));
+  std::vector<float> sum(static_cast<std::size_t>(columns) * rows, 0);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t p = static_cast<std::size_t>(y) * width + x;
+      sum[static_cast<std::size_t>(y / k_block) * columns + x / k_block] +=
           static_cast<float>(picture[p].count > 0) - static_cast<float>(source[p]);
     }
-  for (int y = 0; y < blocks; ++y)
-    for (int x = 0; x < blocks; ++x) {
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
       float around = 0;
-      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, blocks - 1); ++j)
-        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, blocks - 1); ++i)
-          around += sum[static_cast<std::size_t>(j) * blocks + i];
+      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, rows - 1); ++j)
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, columns - 1); ++i)
+          around += sum[static_cast<std::size_t>(j) * columns + i];
       const float less = k_balance * around / (9 * k_block * k_block) + too_much;
-      for (int j = y * k_block; j < std::min((y + 1) * k_block, size); ++j)
-        for (int i = x * k_block; i < std::min((x + 1) * k_block, size); ++i) {
-          const std::size_t p = static_cast<std::size_t>(j) * size + i;
+      for (int j = y * k_block; j < std::min((y + 1) * k_block, height); ++j)
+        for (int i = x * k_block; i < std::min((x + 1) * k_block, width); ++i) {
+          const std::size_t p = static_cast<std::size_t>(j) * width + i;
           picture[p].value = (source[p] != 0 ? 1.0f : -1.0f) - less;
         }
     }
@@ -225,7 +248,7 @@ void LeafViews::Exchange::remove(std::span<const std::uint32_t> numbers, std::sp
     for (std::size_t t = 0; t < leaves[l].triangles.size(); ++t) {
       const Local triangle = views_.local(leaves[l], t);
       for (std::size_t v = 0; v < views_.eyes_.size(); ++v) {
-        views_.draw(triangle, v, [&, first = v * views_.pixels_](std::size_t at, float) {
+        views_.draw(triangle, v, [&, first = views_.first_[v]](std::size_t at, float) {
           const std::size_t p = first + at;
           Mark& mark = marks_[p];
           if (mark.count == 0) touched_.push_back(static_cast<std::uint32_t>(p));
@@ -252,7 +275,7 @@ LeafViews::Change LeafViews::Exchange::add(const ViewedLeaf& leaf, std::uint32_t
   for (std::size_t t = 0; t < leaf.triangles.size(); ++t) {
     const Local triangle = views_.local(leaf, t);
     for (std::size_t v = 0; v < views_.eyes_.size(); ++v) {
-      views_.draw(triangle, v, [&, first = v * views_.pixels_](std::size_t at, float depth) {
+      views_.draw(triangle, v, [&, first = views_.first_[v]](std::size_t at, float depth) {
         const Pixel& pixel = views_.seen_[first + at];
         if (pixel.count == marks_[first + at].count)
           change.covered -= pixel.value;

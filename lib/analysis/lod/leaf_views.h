@@ -54,9 +54,11 @@ class LeafViews {
   };
 
  public:
-  // Sees the ball from `views` sides, 1 to k_most_views. `turn` picks one of many orientations of the set of
-  // views. `pixel`: side of a pixel; the pictures are kept between 16 and 512 pixels wide, whatever it says.
-  LeafViews(const Double3& centre, double radius, double pixel, std::uint64_t turn, int views = k_most_views);
+  // Sees the ball, or what of it is in the box unless that is empty, from `views` sides, 1 to k_most_views.
+  // `turn` picks one of many orientations of the set of views. `pixel`: side of a pixel; the pictures are
+  // kept between 16 and 512 pixels wide, whatever it says.
+  LeafViews(const Double3& centre, double radius, double pixel, std::uint64_t turn, int views = k_most_views,
+            const DoubleBox& box = {});
 
   // What coverage is compared with from now on: what is there.
   void set_source(std::span<const ViewedLeaf> leaves);
@@ -135,13 +137,17 @@ class LeafViews {
   Scene scene(std::span<const ViewedLeaf> leaves) const;
   void look(const Scene& scene, std::size_t view, std::vector<Count>& counts);
   void balance(std::size_t view);
-  std::span<Pixel> pixels_of(std::size_t view) { return std::span(seen_).subspan(view * pixels_, pixels_); }
+  template <class T>
+  std::span<T> of_view(std::vector<T>& all, std::size_t view) const {
+    return std::span(all).subspan(first_[view], first_[view + 1] - first_[view]);
+  }
+  std::span<Pixel> pixels_of(std::size_t view) { return of_view<Pixel>(seen_, view); }
 
   std::vector<LeafEye> eyes_;
   Double3 centre_;
   double pixel_ = 1;
   float per_step_ = 0;                          // steps of depth a metre
-  std::size_t pixels_ = 0;                      // of one view
+  std::vector<std::size_t> first_;              // pixel of each view, and one number more
   std::vector<std::uint8_t> source_;            // 1: covered; view after view
   std::uint64_t source_count_ = 0, count_ = 0;  // covered pixels of the source, of the last drawing
   std::vector<Pixel> seen_;
