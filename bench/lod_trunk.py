@@ -21,7 +21,7 @@ def run(*command):
 
 
 def grown(folder, name, *options):
-    mesh = folder / f"grown_{name}.obj"
+    mesh = folder / f"grown_{name}.glb"
     run("treegrow", *options, "-o", mesh, "--no-textures", "-q")
     return mesh
 

@@ -182,6 +182,12 @@ LodLevel level_of_distance(const LodSpectra& spectra, double distance) {
                    std::max(most * share * share, double{0} + spectra.schedule.back().triangles)));
 }
 
+double held_distance(const LodSpectra& spectra, double distance, double held) {
+  const double h = spectra.hysteresis;
+  if (std::isnan(distance) || !(held > 0) || !(h < 1)) return distance;
+  return std::clamp(held, distance / (1 + h), distance / (1 - h));
+}
+
 std::uint32_t choose_discrete(const LodSpectra& spectra, double distance, std::uint32_t current) {
   const auto& levels = spectra.discrete;
   if (std::isnan(distance)) return 0;

@@ -60,6 +60,10 @@ LodLevel level_of_error(const LodSpectra& spectra, double error);
 // as the size on screen does (hazard H-11), down to what is left at `far`, which stays (003, section 8.1).
 // Not a number: full detail.
 LodLevel level_of_distance(const LodSpectra& spectra, double distance);
+// The distance to ask level_of_distance for, so that a camera that sways changes nothing: the one that was
+// held before while `distance` is within the hysteresis of it (from (1 - h) to (1 + h) times), otherwise the
+// nearest that has `distance` within. `held`: not a number when there is none yet.
+double held_distance(const LodSpectra& spectra, double distance, double held);
 
 // The discrete level to draw at a distance: 0 is full detail, i + 1 is spectra.discrete[i]. `current` is what
 // was drawn before: going coarser needs a distance beyond (1 + h) times the border, going finer one below (1

@@ -151,6 +151,22 @@ TEST(Levels, HysteresisHoldsTheLevelInItsBand) {
   EXPECT_EQ(choose_discrete(s, std::nan(""), 2), 0u);
 }
 
+TEST(Levels, ContinuousDetailHoldsStillWhileTheCameraSways) {
+  const LodSpectra s = two();  // 10 percent
+  double held = held_distance(s, 50, std::nan(""));
+  EXPECT_EQ(held, 50);
+  for (const double d : {52.0, 46.0, 54.9, 45.1}) EXPECT_EQ(held = held_distance(s, d, held), 50) << d;
+  EXPECT_NEAR(held = held_distance(s, 66, held), 60, 1e-5);  // going away it trails by the band
+  EXPECT_NEAR(held = held_distance(s, 58, held), 60, 1e-5);
+  EXPECT_NEAR(held = held_distance(s, 45, held), 50, 1e-5);  // and coming back
+  EXPECT_EQ(held_distance(s, 0, held), 0);
+  EXPECT_EQ(held_distance(s, 7, 0), 7);
+  EXPECT_TRUE(std::isnan(held_distance(s, std::nan(""), held)));
+  LodSpectra none = s;
+  none.hysteresis = 0;
+  EXPECT_EQ(held_distance(none, 50.5, 50), 50.5);
+}
+
 TEST(Levels, TheImpostorHasTheSameHysteresis) {
   const LodSpectra s = two();
   EXPECT_FALSE(choose_impostor(s, 2000, 2150, false));

@@ -137,7 +137,7 @@ const ShownLevel& LevelChoice::at(double distance) {
   if (impostor && choose_impostor(spectra, impostor->atlas.distance, distance, shown_.impostor))
     shown_ = numbered(levels_->last());
   else if (way_ == Way::continuous)
-    shown_ = {k_none, level_of_distance(spectra, distance), false};
+    shown_ = {k_none, level_of_distance(spectra, held_ = held_distance(spectra, distance, held_)), false};
   else
     shown_ =
         numbered(choose_discrete(spectra, distance, shown_.impostor ? shown_.number - 1 : shown_.number));

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -95,6 +96,7 @@ class LevelChoice {
   std::shared_ptr<const TreeLevels> levels_;
   Way way_ = Way::fixed;
   ShownLevel shown_;
+  double held_ = std::numeric_limits<double>::quiet_NaN();  // of Way::continuous: held_distance
 };
 
 }  // namespace copse::treeplay
