@@ -180,6 +180,16 @@ TEST_F(Tool, AConfigurationFileThatIsMissingOrWrongIsRefused) {
   EXPECT_EQ(line_count(o.err), 1u);
 }
 
+TEST_F(Tool, AConfigurationFileWithoutEndIsRefused) {
+  write_text(file("big.toml"), "# " + std::string((1 << 20) + 1, 'x') + "\nlevel = 5\n");
+  for (const std::string& config : {std::string("/dev/zero"), file("big.toml")}) {
+    const Outcome o = probe({"--config", config});
+    EXPECT_EQ(o.status, 2);
+    EXPECT_NE(o.err.find(config), std::string::npos) << o.err;
+    EXPECT_EQ(line_count(o.err), 1u);
+  }
+}
+
 // --- exit statuses
 
 TEST_F(Tool, EveryFaultHasItsStatusAndOneLine) {
@@ -300,6 +310,12 @@ TEST_F(Tool, TwoOutputsMayNotShareAName) {
 }
 
 // --- depfiles, as make and ninja read them
+
+TEST_F(Tool, ANameThatNoDepfileHoldsIsRefusedBeforeAnythingIsWritten) {
+  EXPECT_EQ(probe({"-o", file("a\nb"), "--depfile", file("d")}).status, 2);
+  EXPECT_EQ(probe({"-o", file("out"), "--depfile", file("d\ne")}).status, 2);
+  EXPECT_EQ(files(), 0u);
+}
 
 TEST_F(Tool, MakeReadsTheDepfileWhateverTheNames) {
   write_text(file("in $x #1.obj"), "v 0 0 0\n");

@@ -36,6 +36,20 @@ bool parse_whole(std::string_view text, T& value) {
   return error == std::errc{} && end == text.data() + text.size() && !text.empty();
 }
 
+// Why a configuration file is not read; empty when it may be. One that is missing is told of by the reader.
+std::string config_problem(const std::string& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+    return fmt::format("{} is a device; name a file", file);
+  if (!std::filesystem::is_regular_file(status)) return {};
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (!error && size > k_config_bytes)
+    return fmt::format("{} has {} bytes and no more than {} are read; is it the right file?", file, size,
+                       k_config_bytes);
+  return {};
+}
+
 void add_common(CLI::App& app, Common& c) {
   const auto in_group = [](CLI::Option* option) { return option->group(k_common_group); };
   CommonOptions& v = c.values;
@@ -67,7 +81,7 @@ void add_common(CLI::App& app, Common& c) {
       in_group(app.add_option("--depfile", v.depfile, "every file that was read, for make or ninja")
                    ->type_name("FILE"));
   c.config = in_group(app.set_config("--config", "", "options from a TOML file; the command line wins"));
-  c.config->type_name("FILE")->configurable(false);
+  c.config->type_name("FILE")->configurable(false)->check(config_problem);
   for (CLI::Option* option : {c.help, c.version, c.limits}) option->configurable(false);
   c.unrecorded = {c.help, c.version, c.limits, quiet,   verbose, progress,
                   jobs,   report,    html,     depfile, c.config};

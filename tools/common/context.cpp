@@ -158,6 +158,7 @@ Result<void> ToolContext::check_own_outputs() const {
   const std::array<const fs::path*, 3> own{&options_.report, &options_.html, &options_.depfile};
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (own[i]->empty()) continue;
+    if (auto named = check_depfile_name(*own[i]); !named) return named;
     if (auto possible = Outputs::check(*own[i]); !possible) return possible;
     for (std::size_t j = 0; j < i; ++j) {
       if (same_file(*own[i], *own[j])) return named_twice(*own[i]);
@@ -166,8 +167,18 @@ Result<void> ToolContext::check_own_outputs() const {
   return {};
 }
 
+// What has been read and what will be written can be named in the dependency file, if there is to be one.
+Result<void> ToolContext::check_depfile_name(const fs::path& output) const {
+  if (options_.depfile.empty()) return {};
+  for (const fs::path& input : read_) {
+    if (auto fits = fits_depfile(input); !fits) return fits;
+  }
+  return is_stdout(output) ? Result<void>{} : fits_depfile(output);
+}
+
 Result<void> ToolContext::check_output(const fs::path& path) {
   if (auto free = check_name(path); !free) return free;
+  if (auto named = check_depfile_name(path); !named) return named;
   return Outputs::check(path);
 }
 

@@ -37,6 +37,7 @@ class ToolContext : public Context {
   bool reports() const { return !options_.report.empty() || !options_.html.empty(); }
   Result<void> check_inputs(const std::filesystem::path& path) const;
   Result<void> check_name(const std::filesystem::path& path) const;
+  Result<void> check_depfile_name(const std::filesystem::path& output) const;
   Result<void> add_depfile();
 
   CommonOptions options_;

@@ -8,13 +8,10 @@ namespace {
 
 // Before a space, a tab or a '#' make also undoes backslashes that stand there already, so they are doubled.
 Result<std::string> escaped(const std::filesystem::path& path) {
+  if (auto fits = fits_depfile(path); !fits) return std::unexpected(std::move(fits.error()));
   std::string out;
   std::size_t backslashes = 0;
   for (const char c : path.string()) {
-    if (c == '\n' || c == '\r') {
-      return fail(Fault::usage, path.string(), "a dependency file cannot hold a name with a line break",
-                  "rename the file, or drop --depfile");
-    }
     if (c == ' ' || c == '\t' || c == '#') out.append(backslashes + 1, '\\');
     if (c == ':' || c == '%') out += '\\';
     if (c == '$') out += '$';
@@ -35,6 +32,12 @@ Result<std::vector<std::string>> escaped(const std::vector<std::filesystem::path
 }
 
 }  // namespace
+
+Result<void> fits_depfile(const std::filesystem::path& path) {
+  if (path.string().find_first_of("\n\r") == std::string::npos) return {};
+  return fail(Fault::usage, path.string(), "a dependency file cannot hold a name with a line break",
+              "rename the file, or drop --depfile");
+}
 
 Result<std::string> make_depfile(const std::vector<std::filesystem::path>& targets,
                                  const std::vector<std::filesystem::path>& prerequisites) {

@@ -203,6 +203,7 @@ std::string limits_text(const ToolInfo& info) {
   limits.push_back({"threads (--jobs)", k_max_jobs, "threads"});
   limits.push_back({"nesting of response files (@FILE)", k_response_depth, "files"});
   limits.push_back({"size of all response files", k_response_bytes, "bytes"});
+  limits.push_back({"size of a configuration file", k_config_bytes, "bytes"});
   limits.push_back({"arguments after response files", k_response_args, "arguments"});
   std::size_t name = 0, digits = 0;
   for (const Limit& limit : limits) {

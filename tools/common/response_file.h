@@ -19,6 +19,7 @@ namespace copse {
 inline constexpr int k_response_depth = 16;                   // files that name files
 inline constexpr std::size_t k_response_args = 1'000'000;     // arguments in all
 inline constexpr std::uint64_t k_response_bytes = 64u << 20;  // of all response files together
+inline constexpr std::uint64_t k_config_bytes = 1u << 20;     // of a configuration file
 
 struct ExpandedArguments {
   std::vector<std::string> arguments;

@@ -174,6 +174,8 @@ Result<void> run(const Options& options, Context& context) {
   if (const auto ok = context.check_output(options.output); !ok) return ok;
   auto input = read_input(options, context);
   if (!input) return std::unexpected(input.error());
+  if (const auto ok = context.check_output(options.output); !ok)
+    return ok;  // now that it is known what is read
   auto analysis = analyse(*input, options, *kind, *left_out, context);
   if (!analysis) return std::unexpected(analysis.error());
   if (const auto ok = write_stage(options, *analysis, *left_out, context); !ok) return ok;
