@@ -169,5 +169,25 @@ TEST(ConvexHull, PointsOnFacetsAndEdgesAreNoCorners) {
   EXPECT_EQ(hull_of(prism).faces.size(), 4u + 4u + 12u);
 }
 
+TEST(ConvexHull, TheInnerBallLiesInTheHull) {
+  Points cube, needle;
+  Random random(3);
+  for (int i = 0; i < 8; ++i) cube.push_back({double(i & 1), double(i >> 1 & 1), double(i >> 2)});
+  EXPECT_NEAR(inner_radius(hull_of(cube)) * hull_of(cube).frame.scale, 0.5, 1e-12);
+  for (const double thin : {1e-2, 1e-6, 1e-12}) {
+    needle.clear();
+    const Double3 u = normalized({1, 2, 3}), v = normalized(cross(u, {0, 0, 1})), w = cross(u, v);
+    for (int i = 0; i < 60; ++i)
+      needle.push_back(u * random.around(0, 1) + (v * random.around(0, 1) + w * random.around(0, 1)) * thin);
+    const ConvexHull hull = hull_of(needle);
+    const double r = inner_radius(hull) * hull.frame.scale;
+    EXPECT_LE(r, thin) << thin;
+    if (thin >= 1e-6) {
+      EXPECT_GE(r, 0.2 * thin) << thin;
+    }
+  }
+  EXPECT_EQ(inner_radius(hull_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}})), 0);
+}
+
 }  // namespace
 }  // namespace copse

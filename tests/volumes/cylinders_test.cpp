@@ -83,6 +83,18 @@ TEST(Cylinders, TheBoundIsBelowEveryCylinderThatCanBeFound) {
   }
 }
 
+TEST(Cylinders, OfNeedlesAreProvenToo) {  // the disc across one is low, but not lower than a ball in it
+  for (const double aspect : {1e3, 1e5, 1e6}) {
+    const ConvexHull hull = convex_hull(
+        make_point_cloud(turned(random_cloud(3, 200, {1, 1 / aspect, 1 / aspect}), {1, 2, 3}, {-3, 1, 2}))
+            .value());
+    MinimalCylinderOptions options;
+    options.gap = 0.01, options.max_cells = 20'000;
+    const auto fit = minimal_cylinder(hull, options);
+    EXPECT_GE(fit.lower_bound * 1.01001, volume_of(fit.volume)) << aspect;
+  }
+}
+
 TEST(Cylinders, OfFlatSetsAreADiscAndATube) {
   std::vector<Double3> circle, line;
   for (int i = 0; i < 64; ++i) circle.push_back({std::cos(i * k_pi / 32), std::sin(i * k_pi / 32), 0});

@@ -138,7 +138,7 @@ std::size_t choose_volume(const SetFit& fit, const Choosing& choosing) {
 }
 
 std::string unproven_text(std::span<const SetFit> fits) {
-  constexpr double k_rounding = 1e-4;  // of the gap: what is stored is rounded outward
+  constexpr double k_unit = 0x1p-23;  // by which what is stored may be rounded outward, of the size
   std::size_t searched = 0, unproven = 0;
   double worst = 0;
   std::string of;
@@ -149,7 +149,7 @@ std::string unproven_text(std::span<const SetFit> fits) {
       ++searched;
       const double gap =
           v.lower_bound > 0 ? volume / v.lower_bound - 1 : std::numeric_limits<double>::infinity();
-      if (gap <= wanted + k_rounding) continue;
+      if (gap <= wanted + 1e-4 + k_unit * fit.size * v.measures.surface / volume) continue;
       ++unproven;
       if (gap / wanted <= worst) continue;
       worst = gap / wanted;

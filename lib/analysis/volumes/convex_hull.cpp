@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace copse {
@@ -220,6 +221,22 @@ ConvexHull convex_hull(const PointCloud& cloud, const HullOptions& options) {
     settle_kernel(std::move(candidates.all), options.max_candidates, hull);
   find_indices(cloud.points, hull);
   return hull;
+}
+
+double inner_radius(const ConvexHull& hull) {
+  if (hull.dimension < 3) return 0;
+  Double3 middle;
+  for (const Double3& v : hull.vertices) middle += v;
+  middle = middle / static_cast<double>(hull.vertices.size());
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& f : hull.faces) {
+    const Double3 &a = hull.vertices[f[0]], u = hull.vertices[f[1]] - a, v = hull.vertices[f[2]] - a;
+    const Double3 normal = cross(u, v), w = a - middle;
+    // What the differences, the products and their sums can lose.
+    const double lost = 64 * 0x1p-53 * length(u) * length(v);
+    least = std::min(least, (dot(normal, w) - lost * length(w)) / (length(normal) + lost));
+  }
+  return std::max(0.0, least * (1 - 1e-12));
 }
 
 }  // namespace copse

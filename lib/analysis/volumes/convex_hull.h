@@ -53,4 +53,8 @@ struct HullOptions {
 // points).
 ConvexHull convex_hull(const PointCloud& cloud, const HullOptions& options = {});
 
+// Of a ball that is proven to lie in the hull, about the middle of its vertices: nothing round the points is
+// thinner, in any direction, than twice that. 0 where rounding leaves none (thinner than some 1e-7), or flat.
+double inner_radius(const ConvexHull& hull);
+
 }  // namespace copse

@@ -234,7 +234,7 @@ struct Later {
 class CylinderBounder {
  public:
   CylinderBounder(const ConvexHull& hull, const Tube& best, const MinimalCylinderOptions& options)
-      : points_(hull.vertices), best_(best), options_(options) {
+      : points_(hull.vertices), best_(best), options_(options), inner_(inner_radius(hull)) {
     const Axes base =
         rotated(axes_along(best.direction, any_normal(best.direction)), Double3{0, 0.0137, -0.0231});
     for (int i = 0; i < 3; ++i) sides_[i] = {base[i], base[(i + 1) % 3], base[(i + 2) % 3]};
@@ -290,19 +290,21 @@ class CylinderBounder {
     }
   }
 
-  static double bound_of(const Tube& t, double sine) {
-    if (sine >= 1) return 0;
+  // No cylinder is thinner, or lower, than a ball in the hull: across a needle nothing else would tell.
+  double bound_of(const Tube& t, double sine) const {
+    if (sine >= 1) return volume_of(inner_, 2 * inner_);
     constexpr double k_absolute = 1e-14;
     const double cosine = std::sqrt(1 - sine * sine);
     const Double3 e = t.last - t.first;
     const double height = cosine * (t.high - t.low) - sine * length(cross(e, t.direction)) - k_absolute;
     const double radius = cosine * t.lower_radius - sine * t.support_extent / 2 - k_absolute;
-    return height > 0 && radius > 0 ? volume_of(radius, height) * (1 - k_rounding) : 0;
+    return volume_of(std::max(inner_, radius), std::max(2 * inner_, height)) * (1 - k_rounding);
   }
 
   std::span<const Double3> points_;
   Tube best_;
   const MinimalCylinderOptions& options_;
+  double inner_;
   std::array<Axes, 3> sides_;
   std::priority_queue<Cell, std::vector<Cell>, Later> open_;
   double closed_ = std::numeric_limits<double>::infinity();

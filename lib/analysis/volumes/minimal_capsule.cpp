@@ -37,6 +37,7 @@ BoundedFit<Capsule<double>> minimal_capsule(const ConvexHull& hull, const Capsul
   SweptFit fit = search_around(Swept::capsule, points, options.deadline);
   if (options.gap < std::numeric_limits<double>::infinity()) {
     SweptBoundOptions how = options;
+    how.least_radius = inner_radius(hull);
     how.gap =
         reachable_gap(options.gap, interior_volume(enclosing(capsule_of(fit), hull.boundary)) / fit.volume());
     best.lower_bound = bound_swept(Swept::capsule, points, how, fit).lower_bound;

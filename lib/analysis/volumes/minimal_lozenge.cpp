@@ -44,6 +44,7 @@ BoundedFit<Lozenge<double>> minimal_lozenge(const ConvexHull& hull, const Capsul
   if (options.gap < std::numeric_limits<double>::infinity()) {
     const Lozenge<double> whole = enclosing(placed(fit.rectangle, fit.frame), hull.boundary);
     SweptBoundOptions how = options;
+    how.least_radius = inner_radius(hull);
     how.gap = reachable_gap(options.gap, interior_volume(whole) / fit.volume());
     best.lower_bound = bound_swept(Swept::lozenge, points, how, fit).lower_bound;
   }

@@ -58,6 +58,7 @@ class BranchAndBound {
   bool add_missed(const Axes& frame, const SeparationState& state, std::vector<std::uint32_t>& working) const;
   void search(const Cell& cell, const Axes& start);
   bool spent() const;
+  int own_cuts() const { return options_.least_radius > 0 ? 1 : 0; }  // of every polytope, before the planes
   double target() const { return volume_ / (1 + options_.gap); }
 
   Swept kind_;
@@ -110,6 +111,7 @@ LengthPolytope BranchAndBound::polytope_of(const Cell& cell) const {
   const double r = std::cbrt(volume_ * 3 / (4 * std::numbers::pi)) * (1 + 1e-12);
   const double length = 2 * reach_ * (1 + 1e-12);
   LengthPolytope polytope(kind_, {length, length, r});
+  if (options_.least_radius > 0) polytope.cut(0, 0, 1, options_.least_radius);
   for (const std::uint32_t plane : cell.planes) cut(polytope, plane, cell.rotations);
   return polytope;
 }
@@ -259,7 +261,7 @@ void BranchAndBound::halve(const Cell& cell, const LengthPolytope& polytope) {
   child.depth++;
   child.planes.clear();
   for (std::size_t i = 0; i < cell.planes.size(); ++i) {
-    if (polytope.supports(static_cast<int>(i))) child.planes.push_back(cell.planes[i]);
+    if (polytope.supports(static_cast<int>(i) + own_cuts())) child.planes.push_back(cell.planes[i]);
   }
   const int axis = axis_to_halve(cell);
   const double middle = cell.rotations.centre()[axis];

@@ -22,6 +22,9 @@ struct SweptBoundOptions {
   std::size_t max_separations = 200'000;
   // ... or at this time.
   Deadline deadline = {};
+  // Proven: no radius is smaller (inner_radius of the hull). Without it frames that lie askew to a needle can
+  // only be ruled out one by one.
+  double least_radius = 0;
 };
 
 struct SweptBound {
