@@ -240,6 +240,28 @@ TEST_F(Lodbake, AGlbCarriesEveryLevelAndShowsTheFirst) {
   EXPECT_LT(triangles({"--level", "1"}, "one.glb"), 8u * 2 * 11 + 60);
 }
 
+TEST_F(Lodbake, AGlbEndsInTheImpostorAsTwoPictures) {
+  ASSERT_EQ(bake({"--discrete", "0.5", "--impostor", "32", "--impostor-views", "4"}).status, 0);
+  EXPECT_EQ(triangles({}, "all.glb"), 8u * 2 * 11 + 60);
+  const std::string text = read_text(folder_.path() / "all.glb");
+  const auto begin = text.find('{'), end = text.find("BIN");
+  const auto json = nlohmann::json::parse(text.substr(begin, text.rfind('}', end) - begin + 1));
+  const std::size_t root = json["scenes"][0]["nodes"][0];
+  const auto ids = json["nodes"][root]["extensions"]["MSFT_lod"]["ids"];
+  ASSERT_EQ(ids.size(), 2u);  // a level and the impostor
+  const auto coverage = json["nodes"][root]["extras"]["MSFT_screencoverage"];
+  ASSERT_EQ(coverage.size(), 3u);
+  EXPECT_GT(coverage[0], coverage[1]);
+  const std::size_t child = json["nodes"][ids[1].get<std::size_t>()]["children"][0];
+  const auto primitive = json["meshes"][json["nodes"][child]["mesh"].get<std::size_t>()]["primitives"][0];
+  EXPECT_EQ(json["accessors"][primitive["indices"].get<std::size_t>()]["count"], 12);  // two quads
+  const auto material = json["materials"][primitive["material"].get<std::size_t>()];
+  EXPECT_EQ(material["alphaMode"], "MASK");
+  EXPECT_TRUE(material["doubleSided"].get<bool>());
+  const auto& base = material["pbrMetallicRoughness"];
+  EXPECT_TRUE(base.contains("baseColorTexture"));
+}
+
 TEST_F(Lodbake, ALevelThatErrsTooMuchIsNotWritten) {
   const Outcome o = bake({"--discrete", "0.02", "--max-error", "0.0001"});
   EXPECT_EQ(o.status, 4);

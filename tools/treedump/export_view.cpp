@@ -2,6 +2,7 @@
 #include "lib/formats/level_mesh.h"
 #include "lib/formats/spectrum_file.h"
 #include "lib/runtime/levels.h"
+#include "tools/treedump/impostor_cross.h"
 #include "tools/treedump/views.h"
 
 #include <algorithm>
@@ -79,21 +80,29 @@ struct Wanted {
   std::vector<double> screen_coverage;
 };
 
-// Full detail and every discrete level in one mesh: level 0 in the scene, the others behind MSFT_lod.
-Wanted all_levels(const Tree& tree, const LodSpectra& spectra) {
+// Full detail, every discrete level and the impostor, if there is one, in one mesh: level 0 in the scene, the
+// others behind MSFT_lod.
+Wanted all_levels(const Tree& tree, const LodSpectra& spectra, const ImpostorAtlas& impostor) {
   Wanted out{.mesh = mesh_at(tree, spectra, {}), .level_of_part = {}, .screen_coverage = {}};
   out.level_of_part.assign(out.mesh.parts.size(), 0);
   // The share of the screen's height that the tree takes up where the next level takes over, seen at 60
   // degrees.
   const double height = tree.header.bounds.extent().y, reach = 2 * std::tan(std::numbers::pi / 6);
+  const auto coverage = [&](double distance) {
+    return distance > 0 ? std::min(1.0, height / (reach * distance)) : 1.0;
+  };
   std::uint32_t number = 0;
   for (const LodLevel& level : spectra.discrete) {
     if (level.triangles == 0) continue;  // glTF has no mesh of nothing
     append_state(out.mesh, spectra.trunk, level.trunk_steps, "trunk", tree.header.origin);
     append_state(out.mesh, spectra.leaves, level.leaf_steps, "leaves", tree.header.origin);
     out.level_of_part.resize(out.mesh.parts.size(), ++number);
-    out.screen_coverage.push_back(level.distance > 0 ? std::min(1.0, height / (reach * level.distance))
-                                                     : 1.0);
+    out.screen_coverage.push_back(coverage(level.distance));
+  }
+  if (!impostor.empty()) {
+    append_impostor_cross(out.mesh, impostor, tree.header.origin);
+    out.level_of_part.resize(out.mesh.parts.size(), ++number);
+    out.screen_coverage.push_back(coverage(impostor.distance));
   }
   out.screen_coverage.push_back(0);
   for (const Part& part : out.mesh.parts) {
@@ -113,8 +122,11 @@ Result<Wanted> wanted_mesh(const TreeFile& file, const Tree& tree, const DumpOpt
   if (!spectra) return std::unexpected(spectra.error());
   const bool names_one = options.level || options.ratio || options.max_error;
   const bool both = !spectra->trunk.elements.empty() || !spectra->leaves.elements.empty();
-  if (!names_one && both && !spectra->discrete.empty() && format == ExportFormat::glb)
-    return all_levels(tree, *spectra);
+  if (!names_one && both && !spectra->discrete.empty() && format == ExportFormat::glb) {
+    const auto impostor = read_impostor(file);
+    if (!impostor) return std::unexpected(impostor.error());
+    return all_levels(tree, *spectra, *impostor);
+  }
   LodLevel level;
   if (!is_full_detail(options)) {
     const auto chosen = chosen_level(options, *spectra);
