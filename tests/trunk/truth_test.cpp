@@ -150,6 +150,8 @@ TEST(PoorTrees, AreRecoveredExactly) {
         Case{"oak", "extruded,shuffled", 31, 9000}, Case{"bush", "extruded,pointed,shuffled", 31, 9000},
         // flat ends right behind forks; corners of lids that are as sharp as points; flat strips along limbs
         Case{"spruce", "extruded,capped-fan,shuffled", 31, 9000},
+        // limbs grow out of bands that begin at a border
+        Case{"oak", "extruded,end-to-end-turned", 3, 6000},
         Case{"willow", "extruded,capped-ngon,shuffled", 57, 9000},
         Case{"bush", "welded-forks,capped-ngon", 41, 9000},
         Case{"pine", "welded-forks,capped-fan,shuffled", 57, 9000}}) {

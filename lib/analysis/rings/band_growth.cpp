@@ -510,7 +510,33 @@ bool BandGrowth::close_strip(std::uint32_t ring, std::uint32_t band) {
   return true;
 }
 
+// The same where the limb was cut into a band that begins at a border: the border runs along the limb's ring.
+bool BandGrowth::read_past_limb_at_border(std::uint32_t ring) {
+  const std::vector<Side> sides = sides_of(ring);
+  std::vector<std::uint8_t> at_border;
+  bool is_open = false;
+  for (const Side& s : sides) {
+    at_border.push_back(s.outside == k_none);
+    is_open |= unread(s.outside);
+  }
+  const auto border = std::ranges::find(sides, k_none, &Side::outside);
+  if (!is_open || border == sides.end() || sides.size() != bands_.ring(ring).size()) return false;
+  const std::vector<Triangle> strip = strip_across(surface_.positions, bands_.ring(ring), at_border);
+  if (strip.empty()) return false;
+  auto start = static_cast<std::uint32_t>(triangles_.size());
+  stand_in(sides, strip);
+  while (!holds(triangles_[start], border->a, border->b)) ++start;
+  if (walk({start, border->a, border->b, limit_after(sides.size())}) && is_strip() &&
+      step_.next.size() == step_.ring.size() && is_expected()) {
+    commit();
+    return true;
+  }
+  take_back(sides);
+  return false;
+}
+
 bool BandGrowth::read_past_limbs(std::uint32_t ring, std::size_t most) {
+  if (read_past_limb_at_border(ring)) return true;
   const std::vector<std::uint32_t> limbs = limbs_beyond(ring);
   if (limbs.empty() || limbs.size() > most) return false;
   std::vector<std::vector<Side>> closed;

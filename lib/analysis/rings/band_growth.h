@@ -112,6 +112,7 @@ class BandGrowth {
   void fill(std::uint32_t ring);
   std::vector<std::uint32_t> limbs_beyond(std::uint32_t ring) const;
   bool close_strip(std::uint32_t ring, std::uint32_t band);
+  bool read_past_limb_at_border(std::uint32_t ring);
   bool read_past_limbs(std::uint32_t ring, std::size_t most);
   void read_past_limbs_of(std::size_t most);
 

@@ -34,9 +34,10 @@ inline constexpr double k_enough_bands = 0.9;
 // Share of the ring's radius: a vertex nearer than this to its ring's centre closes a limb, farther out it is
 // a limb's pointed end.
 inline constexpr double k_cap_height = 0.25;
-// How much being low counts against being thick when the root is looked for: an end at the top must be this
-// share thicker than one at the bottom.
-inline constexpr double k_lowness = 0.5;
+// How much being low counts against being thick when the root is looked for: an end at the bottom must not be
+// thinner than one at the top by more than this share of it. Pieces of drooping limbs have their thin ends
+// below.
+inline constexpr double k_lowness = 0.25;
 // Weight of the mean of the limbs' ends against their axes where limbs meet: enough to decide for parallel
 // axes, too little to move the crossing of others by more than a few hundredths of the gap.
 inline constexpr double k_meeting_pull = 0.02;
