@@ -90,7 +90,10 @@ SmallestCircle smallest_circle(std::span<const Double2> points) {
     const std::uint32_t far = farthest_from(circle.centre(), points, squared);
     const double reach = std::sqrt(squared);
     const bool nearer = reach<best.radius, larger = circle.radius()> grown * k_grown;
-    if (nearer) best = {circle.centre(), reach, circle.radius(), circle.support(), circle.size()};
+    if (nearer) best.centre = circle.centre(), best.radius = reach;
+    // What bounds from below may come a step after what reaches all, in symmetric sets.
+    if (best.supports == 0 || circle.radius() > best.lower_radius)
+      best.lower_radius = circle.radius(), best.support = circle.support(), best.supports = circle.size();
     grown = std::max(grown, circle.radius());
     idle = nearer || larger ? 0 : idle + 1;
     if (reach <= circle.radius() * k_inside || idle == k_idle_steps) return best;
