@@ -1,6 +1,7 @@
 // Everything that reads an .eco, over any bytes: for the fuzzer, its corpus and mutants of it.
 #pragma once
 
+#include "lib/formats/check_ecosystem.h"
 #include "lib/formats/ecosystem_file.h"
 #include "lib/formats/instance_bounds.h"
 #include "lib/formats/instance_codec.h"
@@ -12,8 +13,11 @@
 namespace copse {
 
 // What is unsound about what a reader was given to use without a further check; "" when nothing is.
-inline std::string use_everything(const Ecosystem& eco) {
-  for (const InstanceBlock& b : eco.blocks)
+// `checked`: its instances are, too; otherwise those of blocks that pass their own check are used.
+inline std::string use_everything(const Ecosystem& eco, bool checked) {
+  for (const InstanceBlock& b : eco.blocks) {
+    if (checked && !is_sound_block(eco, b)) return "a block is damaged that was checked";
+    if (!is_sound_block(eco, b)) continue;
     for (std::size_t k = b.first; k < b.first + b.count; ++k) {
       const Instance i = instance_of(eco, b, k);
       double square = 0;
@@ -24,6 +28,7 @@ inline std::string use_everything(const Ecosystem& eco) {
         if (m != k_none && m >= eco.materials.size()) return "a material is out of range";
       (void)instance_bounds(eco.types[i.type], i);
     }
+  }
   for (std::uint32_t r = 0; r < eco.terrain.rows; ++r)
     for (std::uint32_t c = 0; c < eco.terrain.columns; ++c)
       if (!is_finite(eco.terrain.vertex(c, r))) return "a vertex of the terrain is not finite";
@@ -41,9 +46,13 @@ inline std::string read_ecosystem_as_it_is(const std::vector<std::uint8_t>& byte
     const auto file = EcosystemFile::from_bytes(bytes, "bytes", trust);
     if (!file) continue;
     (void)file->verify();
-    const auto eco = file->load();
-    if (trust != Trust::nothing || !eco) continue;
-    if (std::string wrong = use_everything(*eco); !wrong.empty()) return wrong;
+    const auto eco = file->load(), on_demand = file->load(Instances::on_demand);
+    if (trust != Trust::nothing) continue;
+    if (eco && !on_demand) return "it loads, but not with its instances on demand";
+    if (on_demand)
+      if (std::string wrong = use_everything(*on_demand, false); !wrong.empty()) return "on demand: " + wrong;
+    if (!eco) continue;
+    if (std::string wrong = use_everything(*eco, true); !wrong.empty()) return wrong;
     const auto again = encode_ecosystem(*eco);
     if (!again) {
       // A reader takes a type that has neither name nor bytes; a writer has no reason to.

@@ -11,7 +11,9 @@ ImpostorCopy impostor_copy(const DrawCopy& copy, const ImpostorAtlas& atlas, con
   const Double3 turned = row(x) * viewer.x + row(y) * viewer.y + row(z) * viewer.z;
   const double square = dot(row(x), row(x));  // of the scale
   const Double3 from = infinitely_far ? turned : turned / square - to_double(atlas.centre);
-  const ImpostorBlend blend = impostor_blend(atlas.layout, atlas.views, from);
+  // A scale that float32 cannot square leaves no direction: any will do.
+  const ImpostorBlend blend =
+      impostor_blend(atlas.layout, atlas.views, is_finite(from) ? from : Double3{0, 0, 1});
   ImpostorCopy out{.copy = copy};
   const auto heaviest = static_cast<std::size_t>(std::max_element(blend.weight.begin(), blend.weight.end()) -
                                                  blend.weight.begin());
