@@ -125,6 +125,8 @@ void ForestPlanner::see(const View& view, const ForestWish& wish, ForestFrame& f
   counts.cull_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   counts.blocks_seen = seen_.size();
   sort_by_distance(view.eye);
+  nearest_ =
+      seen_.empty() ? 0 : distance_to(view.eye, absolute(eco_.blocks[seen_[0].block].bounds, eco_.origin));
   const Double3 eye = view.eye - eco_.origin;
   for (const SeenBlock& s : seen_) {
     const InstanceBlock& block = eco_.blocks[s.block];
@@ -150,7 +152,10 @@ void ForestPlanner::cast(const View& view, const ForestWish& wish, ForestFrame& 
   if (!wish.lit || scene.empty()) return;
   const double size = length(scene.extent());
   const double reach = std::clamp(k_shadow_heights * height_of(eco_), 0.02 * size, 2 * size);
-  const double nearest = std::max(view.near_plane, 0.003 * reach);
+  // From above the forest begins far away; in powers of two, so that maps keep their widths while the eye
+  // moves.
+  double nearest = std::max(view.near_plane, 0.003 * reach);
+  while (2 * nearest <= std::min(nearest_, reach / 2)) nearest *= 2;
   frame.shadows = shadow_cascades(view, wish.sun, scene, eco_.origin,
                                   {.count = k_max_cascades,
                                    .texels = wish.shadow_size / 2,

@@ -89,6 +89,7 @@ class ForestPlanner {
   std::vector<ForestGroup> groups_;
   std::map<Key, std::uint32_t> first_group_;
   std::vector<SeenBlock> seen_;
+  double nearest_ = 0;  // of the blocks that the camera saw last, metres from the eye
 };
 
 }  // namespace copse::treeplay
