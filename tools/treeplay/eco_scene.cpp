@@ -151,7 +151,10 @@ class EcosystemReader {
   const Ecosystem* eco_ = nullptr;
 };
 
-constexpr std::size_t k_cloud_copies = 4000, k_cloud_triangles = 60;  // enough for cells of metres
+// Triangles of trees that stand for all: of a few trees many, enough for cells of metres; of a forest of
+// cells of many trees a few of many, or the cells would differ by chance.
+constexpr std::size_t k_few_trees = 4000, k_many_trees = 60000;
+constexpr std::size_t k_triangles_of_few = 60, k_triangles_of_many = 4;
 
 // Trees that stand for all of a type in a block, so many each.
 struct CloudTree {
@@ -164,10 +167,11 @@ struct CloudTree {
 // is read for it.
 std::vector<CloudTree> cloud_trees(const Ecosystem& eco) {
   std::vector<CloudTree> trees;
-  const bool small = eco.instance_count() <= k_cloud_copies;
+  const bool small = eco.instance_count() <= k_few_trees;
   BlockStream stream(eco, 0);
   double owed = 0;
-  const double share = static_cast<double>(k_cloud_copies) / static_cast<double>(eco.instance_count() + 1);
+  const double share = std::min(1.0, static_cast<double>(k_many_trees) /
+                                         static_cast<double>(std::max<std::size_t>(eco.instance_count(), 1)));
   for (std::uint32_t b = 0; b < eco.blocks.size(); ++b) {
     const InstanceBlock& block = eco.blocks[b];
     if (block.bounds.empty()) continue;
@@ -192,11 +196,11 @@ std::vector<CloudTree> cloud_trees(const Ecosystem& eco) {
 }
 
 // Some triangles of a tree, each as much larger as there are fewer of them.
-void add_to_cloud(const Scene& scene, const CloudTree& tree, std::size_t number, TreeGeometry& cloud,
-                  std::vector<float>& opacity) {
+void add_to_cloud(const Scene& scene, const CloudTree& tree, std::size_t number, std::size_t most,
+                  TreeGeometry& cloud, std::vector<float>& opacity) {
   const TreeGeometry& g = scene.geometry;
   for (const DrawRange& range : scene.forest.types[tree.type].levels[0]) {
-    const std::size_t triangles = range.index_count / 3, taken = std::min(triangles, k_cloud_triangles);
+    const std::size_t triangles = range.index_count / 3, taken = std::min(triangles, most);
     if (taken == 0) continue;
     const auto larger = static_cast<float>(
         std::sqrt(static_cast<double>(triangles) / static_cast<double>(taken) * tree.stands_for));
@@ -233,7 +237,10 @@ SkyLight forest_sky(const Scene& scene) {
   cloud.bounds = scene.geometry.bounds;
   std::vector<float> opacity;
   std::size_t number = 0;
-  for (const CloudTree& tree : cloud_trees(*scene.eco)) add_to_cloud(scene, tree, number++, cloud, opacity);
+  const std::size_t most =
+      scene.eco->instance_count() <= k_few_trees ? k_triangles_of_few : k_triangles_of_many;
+  for (const CloudTree& tree : cloud_trees(*scene.eco))
+    add_to_cloud(scene, tree, number++, most, cloud, opacity);
   if (cloud.indices.empty()) return {};
   return make_sky_light(cloud, opacity, 96);
 }

@@ -134,8 +134,9 @@ vec4 sky_at(vec3 local) {
 }
 float skylight(vec4 sky_here, vec3 normal) { return max(0.0, sky_here.w + dot(sky_here.xyz, normal)); }
 
-// What a mean shadow leaves of the sun where the sky is seen so much.
-float sun_by_sky(vec4 sky_here) { return clamp(2.0 * sky_here.w, 0.0, 1.0); }
+// What mean shadows leave of the sun where the sky is seen so much: of crowns from outside most, whatever the cell
+// of the grid holds.
+float sun_by_sky(vec4 sky_here) { return 0.4 + 0.5 * clamp(2.0 * sky_here.w, 0.0, 1.0); }
 
 // haze_distance: metres at which haze has two thirds of what is seen; 0: there is none.
 vec3 hazed(vec3 c, vec3 relative, float haze_distance) {
