@@ -21,17 +21,23 @@ LevelExtractor::LevelExtractor(const Spectrum& spectrum) : spectrum_(&spectrum) 
     const auto at = static_cast<std::uint32_t>(births_.size());
     const std::uint32_t triangles = spectrum.first_triangle[e + 1] - spectrum.first_triangle[e];
     if (runs_.empty() || runs_.back().material != elements[e].material) {
-      runs_.push_back({.material = elements[e].material, .first = at, .end = at, .uniform = triangles});
+      runs_.push_back({.material = elements[e].material,
+                       .first = at,
+                       .end = at,
+                       .narrowest = triangles,
+                       .widest = triangles});
       materials_.push_back(elements[e].material);
     }
     runs_.back().end = at + 1;
-    if (runs_.back().uniform != triangles) runs_.back().uniform = 0;
+    runs_.back().narrowest = std::min(runs_.back().narrowest, triangles);
+    runs_.back().widest = std::max(runs_.back().widest, triangles);
     widest = std::max(widest, triangles);
     births_.push_back(elements[e].birth), deaths_.push_back(elements[e].death);
     for (std::uint32_t t = spectrum.first_triangle[e]; t < spectrum.first_triangle[e + 1]; ++t)
       indices_.insert(indices_.end(), spectrum.triangles[t].begin(), spectrum.triangles[t].end());
     first_index_.push_back(static_cast<std::uint32_t>(indices_.size()));
   }
+  indices_.resize(indices_.size() + 3 * std::size_t{widest});  // a copy may be wider than the last element
   for (std::size_t b = 0; b < births_.size(); b += k_block) {
     const auto from = births_.begin() + static_cast<std::ptrdiff_t>(b);
     const auto [low, high] = std::minmax_element(
@@ -57,13 +63,19 @@ std::size_t LevelExtractor::extract_run(const Run& run, std::uint32_t steps, std
       at += n, e = stop;
     } else if (low_birth_[block] > steps) {
       e = stop;
-    } else if (run.uniform == 2) {
+    } else if (run.narrowest == 2 && run.widest == 2) {
       // Written whether it lives or not, and kept if it does: no branch to foretell.
       for (; e < stop; ++e) {
         std::memcpy(at, indices_.data() + first_index_[e], 6 * sizeof *at);
         at += births_[e] <= steps ? 6 : 0;
       }
-    } else if (run.uniform == 1) {
+    } else if (run.widest == 2) {
+      // The same, each as if it had two.
+      for (; e < stop; ++e) {
+        std::memcpy(at, indices_.data() + first_index_[e], 6 * sizeof *at);
+        at += births_[e] <= steps ? first_index_[e + 1] - first_index_[e] : 0;
+      }
+    } else if (run.widest == 1) {
       for (; e < stop; ++e) {
         std::memcpy(at, indices_.data() + first_index_[e], 3 * sizeof *at);
         at += births_[e] <= steps ? 3 : 0;

@@ -30,9 +30,9 @@ class LevelExtractor {
 
  private:
   static constexpr std::uint32_t k_block = 64;  // elements
-  // Elements of one material by descending death. `uniform`: triangles of each, 0 when they differ.
+  // Elements of one material by descending death, with so many triangles each.
   struct Run {
-    std::uint32_t material = 0, first = 0, end = 0, uniform = 0;
+    std::uint32_t material = 0, first = 0, end = 0, narrowest = 0, widest = 0;
   };
   std::size_t extract_run(const Run& run, std::uint32_t steps, std::uint32_t* out) const;
 

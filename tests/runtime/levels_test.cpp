@@ -10,7 +10,7 @@ namespace copse {
 namespace {
 
 // n elements of `triangles` triangles each, two become one in every step; materials alternate.
-Spectrum pairs(std::uint32_t n, std::uint32_t triangles) {
+Spectrum pairs(std::uint32_t n, std::uint32_t triangles, bool mixed = false) {
   struct Life {
     std::uint32_t birth, death;
   };
@@ -27,13 +27,13 @@ Spectrum pairs(std::uint32_t n, std::uint32_t triangles) {
   std::vector<std::array<std::uint32_t, 3>> corners;
   for (std::size_t e = 0; e < lives.size(); ++e) {
     elements.push_back({lives[e].birth, lives[e].death, static_cast<std::uint32_t>(e % 2), k_none});
-    for (std::uint32_t t = 0; t < triangles; ++t) {
+    const std::uint32_t own = mixed && e % 3 == 0 ? 1 : triangles;
+    for (std::uint32_t t = 0; t < own; ++t) {
       const auto v = static_cast<std::uint32_t>(3 * corners.size());
       corners.push_back({v, v + 1, v + 2});
     }
     first.push_back(static_cast<std::uint32_t>(corners.size()));
-    for (std::uint32_t step = lives[e].birth; step < std::min(lives[e].death, n); ++step)
-      counts[step] += triangles;
+    for (std::uint32_t step = lives[e].birth; step < std::min(lives[e].death, n); ++step) counts[step] += own;
   }
   Spectrum s;
   s.vertices = std::vector<SpectrumVertex>(3 * corners.size());
@@ -53,8 +53,8 @@ std::multiset<std::uint32_t> expected(const Spectrum& s, std::uint32_t step) {
 }
 
 TEST(Levels, ExtractionGivesExactlyWhatIsAlive) {
-  for (const std::uint32_t triangles : {1u, 2u, 5u}) {
-    const Spectrum s = pairs(300, triangles);
+  for (const auto& [triangles, mixed] : {std::pair{1u, false}, {2u, false}, {2u, true}, {5u, true}}) {
+    const Spectrum s = pairs(300, triangles, mixed);
     const LevelExtractor extractor(s);
     std::vector<std::uint32_t> out(extractor.capacity());
     for (std::uint32_t step = 0; step <= s.steps(); step += 13) {
