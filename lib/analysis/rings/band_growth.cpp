@@ -216,13 +216,14 @@ bool BandGrowth::continues_behind(const Fan& fan, int rings) {
 }
 
 bool BandGrowth::is_point(std::uint32_t v, const Fan& fan, Points which) {
-  if (!is_round(fan.link)) return false;
   const int rings = which == Points::followed_by_a_ring ? 1 : 2;
-  if (fan.angle <= k_point_angle) return which == Points::all || continues_behind(fan, rings);
+  if (fan.angle <= k_point_angle)
+    return is_round(fan.link) && (which == Points::all || continues_behind(fan, rings));
   // The ring behind the link has as many vertices as the link when the link's have five triangles on average.
   std::uint64_t degrees = 0;
   for (const std::uint32_t x : fan.link) degrees += degree_[x];
-  return degree_[v] == fan.link.size() && degrees == 5 * fan.link.size() && continues_behind(fan, rings);
+  return degree_[v] == fan.link.size() && degrees == 5 * fan.link.size() && is_round(fan.link) &&
+         continues_behind(fan, rings);
 }
 
 void BandGrowth::read_fan(std::uint32_t v, const Fan& fan) {
@@ -252,7 +253,11 @@ void BandGrowth::start_at_points(Points which) {
   }
 }
 
-void BandGrowth::start_at_lids(double smooth, int rings) {
+// What may be the end of a limb; found once for each angle.
+std::vector<Lid>& BandGrowth::lids_of(double smooth) {
+  for (auto& [angle, lids] : lids_) {
+    if (angle == smooth) return lids;
+  }
   std::vector<SharedEdge> edges;
   for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
     for (std::size_t e = 0; e < 3; ++e) {
@@ -261,11 +266,17 @@ void BandGrowth::start_at_lids(double smooth, int rings) {
         edges.push_back({surface_.triangles[t][e], surface_.triangles[t][(e + 1) % 3], t, n});
     }
   }
-  for (Lid& lid : find_lids(surface_.positions, surface_.triangles, edges, smooth)) {
+  std::vector<Lid> lids = find_lids(surface_.positions, surface_.triangles, edges, smooth);
+  std::erase_if(lids, [&](const Lid& lid) { return !may_close(lid); });
+  return lids_.emplace_back(smooth, std::move(lids)).second;
+}
+
+void BandGrowth::start_at_lids(double smooth, int rings) {
+  for (Lid& lid : lids_of(smooth)) {
     if (!std::ranges::all_of(lid.triangles, [&](std::uint32_t t) { return unread(t); })) continue;
     const auto at_start = [&](std::uint32_t t) { return holds(triangles_[t], lid.rim[0], lid.rim[1]); };
     std::ranges::stable_partition(lid.triangles, at_start);
-    if (may_close(lid) && continues_behind({lid.rim, lid.triangles, 0}, rings)) close_with_lid(lid);
+    if (continues_behind({lid.rim, lid.triangles, 0}, rings)) close_with_lid(lid);
   }
 }
 

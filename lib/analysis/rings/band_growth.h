@@ -17,6 +17,7 @@
 #include <functional>
 #include <queue>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace copse {
@@ -96,6 +97,7 @@ class BandGrowth {
   bool collect_fan(std::uint32_t v, std::uint32_t t, Fan& fan);
   bool is_point(std::uint32_t v, const Fan& fan, Points which);
   void read_fan(std::uint32_t v, const Fan& fan);
+  std::vector<Lid>& lids_of(double smooth);
   bool is_round(std::span<const std::uint32_t> ring) const;
   bool may_close(const Lid& lid) const;
   void close_with_lid(const Lid& lid);
@@ -127,6 +129,7 @@ class BandGrowth {
   std::deque<Edge> queue_;
   std::priority_queue<Parked, std::vector<Parked>, std::greater<>> parked_;
   Step step_;
+  std::vector<std::pair<double, std::vector<Lid>>> lids_;  // by angle
 };
 
 }  // namespace copse

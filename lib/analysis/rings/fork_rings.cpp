@@ -7,6 +7,7 @@
 #include "lib/analysis/surface/tolerances.h"
 #include "lib/analysis/surface/welded_tolerances.h"
 
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -25,6 +26,9 @@ enum class Ends : std::uint8_t {
   any,      // and caps and lids with one ring behind them or, where a limb grows out of the last band, none
 };
 
+// Where a welded tube is sheared by more, its end is no lid here.
+constexpr auto k_lid_angles = std::to_array({k_lid_smooth_cosines[0], k_lid_smooth_cosines[1]});
+
 // From the ends inward, by counting alone.
 void grow_from_ends(const Surface& surface, Ends ends, Bands& bands) {
   using Points = BandGrowth::Points;
@@ -41,12 +45,12 @@ void grow_from_ends(const Surface& surface, Ends ends, Bands& bands) {
   growth.start_at_borders();
   growth.run(false);
   if (ends != Ends::pointed) {
-    for (const double smooth : k_lid_smooth_cosines) start_at_lids(smooth, 2);
+    for (const double smooth : k_lid_angles) start_at_lids(smooth, 2);
   }
   start_at_points(Points::followed_by_rings);
   if (ends == Ends::any) {
     growth.read_past_limbs();
-    for (const double smooth : k_lid_smooth_cosines) start_at_lids(smooth, 1);
+    for (const double smooth : k_lid_angles) start_at_lids(smooth, 1);
     start_at_points(Points::followed_by_a_ring);
     growth.read_past_limbs();
     start_at_lids(k_lid_smooth_cosines[0], 0);

@@ -48,40 +48,48 @@ std::uint32_t middle_of(const Lid& lid, std::span<const Triangle> triangles) {
 
 std::vector<Lid> find_lids(std::span<const Double3> positions, std::span<const Triangle> triangles,
                            std::span<const SharedEdge> edges, double smooth) {
+  std::vector<Double3> normals;
+  normals.reserve(triangles.size());
+  for (const Triangle& t : triangles) normals.push_back(unit_normal(positions, t));
   UnionFind patches(triangles.size());
   for (const SharedEdge& e : edges) {
-    const Double3 t = unit_normal(positions, triangles[e.t]), u = unit_normal(positions, triangles[e.u]);
-    if (std::abs(dot(t, u)) > smooth) patches.unite(e.t, e.u);
+    if (std::abs(dot(normals[e.t], normals[e.u])) > smooth) patches.unite(e.t, e.u);
   }
+  std::vector<std::uint32_t> patch_of(triangles.size()), size(triangles.size(), 0), rim(triangles.size(), 0);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) ++size[patch_of[t] = patches.find(t)];
+  for (const SharedEdge& e : edges) {
+    if (patch_of[e.t] != patch_of[e.u]) ++rim[patch_of[e.t]], ++rim[patch_of[e.u]];
+  }
+  // The rim of a disc has two edges more than the disc has triangles, less two for each inner vertex.
+  const auto may_be_lid = [&](std::uint32_t patch) {
+    return rim[patch] == size[patch] + 2 || (rim[patch] == size[patch] && rim[patch] >= 3);
+  };
   struct Crease {
     std::uint32_t patch;
     std::array<std::uint32_t, 2> edge;
   };
   std::vector<Crease> creases;
   for (const SharedEdge& e : edges) {
-    const std::uint32_t t = patches.find(e.t), u = patches.find(e.u);
+    const std::uint32_t t = patch_of[e.t], u = patch_of[e.u];
     if (t == u) continue;
-    creases.push_back({t, {e.a, e.b}});
-    creases.push_back({u, {e.a, e.b}});
+    if (may_be_lid(t)) creases.push_back({t, {e.a, e.b}});
+    if (may_be_lid(u)) creases.push_back({u, {e.a, e.b}});
   }
   std::ranges::stable_sort(creases, {}, &Crease::patch);
-  std::vector<std::uint32_t> size(triangles.size(), 0), lid_of(triangles.size(), k_none);
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) ++size[patches.find(t)];
+  std::vector<std::uint32_t> lid_of(triangles.size(), k_none);
   std::vector<Lid> lids;
-  std::vector<std::array<std::uint32_t, 2>> rim;
+  std::vector<std::array<std::uint32_t, 2>> around;
   for (std::size_t i = 0; i < creases.size();) {
     const std::uint32_t patch = creases[i].patch;
-    rim.clear();
-    for (; i < creases.size() && creases[i].patch == patch; ++i) rim.push_back(creases[i].edge);
-    // The rim of a disc has two edges more than the disc has triangles, less two for each inner vertex.
-    if (rim.size() != size[patch] + 2 && rim.size() != size[patch]) continue;
-    std::vector<std::uint32_t> loop = loop_of(rim);
+    around.clear();
+    for (; i < creases.size() && creases[i].patch == patch; ++i) around.push_back(creases[i].edge);
+    std::vector<std::uint32_t> loop = loop_of(around);
     if (loop.empty()) continue;
     lid_of[patch] = static_cast<std::uint32_t>(lids.size());
     lids.push_back({std::move(loop), {}, k_none});
   }
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    if (const std::uint32_t lid = lid_of[patches.find(t)]; lid != k_none) lids[lid].triangles.push_back(t);
+    if (const std::uint32_t lid = lid_of[patch_of[t]]; lid != k_none) lids[lid].triangles.push_back(t);
   }
   for (Lid& lid : lids) {
     if (lid.triangles.size() == lid.rim.size()) lid.middle = middle_of(lid, triangles);
