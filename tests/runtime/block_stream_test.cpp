@@ -74,10 +74,10 @@ TEST(BlockStream, TheSphereHoldsTheTree) {
 TEST(BlockStream, TouchesNoPageOfABlockThatIsNotAskedFor) {
   constexpr std::size_t k_page = 4096, k_blocks = 64, k_each = 256;
   Ecosystem eco = little_ecosystem(false);
-  const std::size_t bytes = k_blocks * k_each * sizeof(PackedInstance);
+  constexpr std::size_t bytes = k_blocks * k_each * sizeof(PackedInstance);
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(memory, MAP_FAILED);
-  const std::shared_ptr<void> owner(memory, [bytes](void* p) { munmap(p, bytes); });
+  const std::shared_ptr<void> owner(memory, [](void* p) { munmap(p, bytes); });
   auto* instances = static_cast<PackedInstance*>(memory);
   for (std::size_t i = 0; i < k_blocks * k_each; ++i) instances[i] = eco.packed[i % 20];
   std::vector<InstanceBlock> blocks(k_blocks, eco.blocks[0]);

@@ -44,7 +44,10 @@ std::map<Edge, int> edges_of(const std::vector<std::uint32_t>& indices) {
 // Twice the area seen from above, in cells; positive when counter-clockwise seen from there (z points down).
 double area(const Terrain& t, const std::uint32_t* corner) {
   const auto column = [&](std::uint32_t v) { return static_cast<double>(v % t.columns); };
-  const auto row = [&](std::uint32_t v) { return static_cast<double>(v / t.columns); };
+  const auto row = [&](std::uint32_t v) {
+    const std::uint32_t whole = v / t.columns;
+    return static_cast<double>(whole);
+  };
   const double x1 = column(corner[1]) - column(corner[0]), z1 = row(corner[1]) - row(corner[0]);
   const double x2 = column(corner[2]) - column(corner[0]), z2 = row(corner[2]) - row(corner[0]);
   return z1 * x2 - x1 * z2;
