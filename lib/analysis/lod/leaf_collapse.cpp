@@ -6,6 +6,7 @@
 #include "lib/analysis/lod/leaf_matching.h"
 #include "lib/analysis/lod/leaf_pieces.h"
 #include "lib/analysis/lod/leaf_shape.h"
+#include "lib/analysis/lod/leaf_surfaces.h"
 #include "lib/analysis/lod/leaf_views.h"
 #include "lib/analysis/lod/radius_ancestors.h"
 
@@ -76,16 +77,20 @@ struct Successor {
 
 class Collapse {
  public:
-  Collapse(const Tree& tree, const Looks& looks, const LeafPieces& pieces, const LeafCollapseOptions& options)
+  // `pieces` are what is collapsed, `full` what they are to look like.
+  Collapse(const Tree& tree, const Looks& looks, const LeafPieces& pieces, const LeafPieces& full,
+           const LeafCollapseOptions& options)
       : pieces_(pieces),
+        full_(full),
         looks_(looks),
         options_(options),
         effort_(effort_of(options.quality)),
-        field_(field_of(pieces, options.cells)),
+        field_(field_of(full, options.cells)),
         ancestors_(tree),
         elements_(pieces) {
     shape_.emptiness = options.emptiness;
     shape_.largest = options.largest * field_.cross_section();
+    for (const SpectrumVertex& v : full.part.vertices) box_.grow(to_double(v.position));
     for (const SpectrumVertex& v : pieces.part.vertices) box_.grow(to_double(v.position));
     offset_ = box_.empty() ? Double3{} : box_.centre();
   }
@@ -151,9 +156,9 @@ class Collapse {
 
   // The pieces as the pictures see them.
   void show_source() {
-    for (const std::uint32_t t : pieces_.triangles) source_faces_.push_back(pieces_.part.triangles[t]);
-    for (const LeafPiece& piece : pieces_.list)
-      source_.push_back({pieces_.part.vertices,
+    for (const std::uint32_t t : full_.triangles) source_faces_.push_back(full_.part.triangles[t]);
+    for (const LeafPiece& piece : full_.list)
+      source_.push_back({full_.part.vertices,
                          std::span(source_faces_).subspan(piece.first, piece.last - piece.first),
                          mask_of(piece.material)});
   }
@@ -521,7 +526,7 @@ class Collapse {
     nodes_[host] = node, alive_[merge.members.front()] = host;
   }
 
-  const LeafPieces& pieces_;
+  const LeafPieces &pieces_, &full_;
   Looks looks_;
   LeafCollapseOptions options_;
   Effort effort_;
@@ -548,8 +553,12 @@ class Collapse {
 
 Spectrum collapse_spectrum(const Tree& tree, const Looks& looks, const LeafCollapseOptions& options) {
   const LeafPieces pieces = leaf_pieces(tree);
-  if (options.quality == CollapseQuality::fast) return agglomerate_leaves(tree, pieces);
-  return Collapse(tree, looks, pieces, options).run();
+  const auto collapse = [&](const LeafPieces& some) {
+    return options.quality == CollapseQuality::fast ? agglomerate_leaves(tree, some)
+                                                    : Collapse(tree, looks, some, pieces, options).run();
+  };
+  const std::optional<SurfaceCollapse> lumps = collapse_surfaces(pieces);
+  return lumps ? joined(lumps->spectrum, collapse(lumps->left)) : collapse(pieces);
 }
 
 }  // namespace copse

@@ -31,7 +31,8 @@ struct LeafCollapseOptions {
 
 // The spectrum of the tree's leaves; without elements when it has none. An opaque leaf becomes a triangle,
 // triangle by triangle; one whose texture has alpha a card of two triangles with the texture of one of the
-// leaves that it stands for (or a triangle, where the leaves are triangles). `looks`: the masks of the
+// leaves that it stands for (or a triangle, where the leaves are triangles). Where most of the area is of
+// surfaces of many triangles these lose edges first (leaf_surfaces.h). `looks`: the masks of the
 // materials' textures; without them leaves with alpha are taken as opaque. What stands for leaves of several
 // twigs hangs on the lowest radius that bears them all. The sum of areas stays the same as long as it fits
 // (`largest`). A step's error, metres: how far ground that
