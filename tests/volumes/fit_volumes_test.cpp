@@ -215,6 +215,21 @@ TEST(FitVolumes, APlaceFarAwayChangesNothingButRoundingOfAnyMethod) {
   }
 }
 
+TEST(FitVolumes, FarFromTheOriginNoLozengeIsLargerThanTheCapsuleNorThatThanTheBall) {
+  for (const double far : {1e5, 1e6, 1e7}) {
+    for (int seed = 0; seed < 6; ++seed) {
+      Points points = battery::cloud(6 + 4 * seed, {1, 1, 1}, 40 + seed);
+      for (Double3& p : points) p += Double3{far, far, far};
+      const auto all = fit_all(points);
+      const double ball = of(all, VolumeKind::sphere, "minimal").measures.volume,
+                   capsule = of(all, VolumeKind::capsule, "minimal").measures.volume;
+      EXPECT_LE(capsule, ball * (1 + 1e-6)) << far << ", " << seed;
+      EXPECT_LE(of(all, VolumeKind::lozenge, "minimal").measures.volume, capsule * (1 + 1e-6))
+          << far << ", " << seed;
+    }
+  }
+}
+
 TEST(FitVolumes, WhenTheTimeIsUpEveryMethodStillGivesAProvenVolumeNoWorseThanTheQuickOnes) {
   for (const Points& points : {battery::turned(battery::twig(10)), battery::torus(40, 32, 0.5, 0.125),
                                battery::cloud(9000, {1, 1, 1}, 10), battery::lattice(9, 3)}) {

@@ -11,7 +11,10 @@
 
 #include <array>
 #include <limits>
+#include <numbers>
+#include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace copse {
@@ -49,6 +52,48 @@ TEST(Rotations, DoNotChangeTheLeastVolumesRoundAFewPoints) {
         for (std::size_t t = 0; t < k_names.size(); ++t) {
           EXPECT_NEAR(volumes[t] / base[t], 1, 1e-6) << k_names[t] << " of " << n << " points, set " << set;
         }
+      }
+    }
+  }
+}
+
+// A regular polygon at the bottom and one at the top, turned by half a step or not.
+Points drum(int sides, double height, bool anti) {
+  Points out;
+  for (int i = 0; i < 2 * sides; ++i) {
+    const bool top = i % 2 == 1;
+    const double turn = 2 * std::numbers::pi * (i / 2 + (anti && top ? 0.5 : 0)) / sides;
+    out.push_back({std::cos(turn), std::sin(turn), top ? height : 0});
+  }
+  return out;
+}
+
+// Along the axis of the drum, of all lengths.
+double least_upright_capsule(double height) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= 2000; ++i) {
+    const double l = height * i / 2000, cap = (height - l) / 2, square = 1 + cap * cap;
+    least = std::min(least, std::numbers::pi * square * (l + 4.0 / 3 * std::sqrt(square)));
+  }
+  return least;
+}
+
+TEST(Rotations, DoNotHideTheLeastVolumesRoundRegularPrismsAndAntiprisms) {
+  constexpr std::array k_names{"box", "capsule", "cylinder", "lozenge"};
+  for (const int sides : {3, 4, 5, 7, 10, 16, 32}) {
+    for (const double height : {0.5, 1.2, 1.5, 3.0}) {
+      for (const bool anti : {false, true}) {
+        const Points points = drum(sides, height, anti);
+        const auto base = least_volumes(points);
+        const std::string name = fmt::format("{} sides, {} high, anti {}", sides, height, anti);
+        EXPECT_LE(base[1], least_upright_capsule(height) * (1 + 1e-6)) << name;
+        EXPECT_LE(base[3], base[1] * (1 + 1e-9)) << name;
+        const Axes frame = turned(k_world_axes, {0.3 * sides, 0.7, height});
+        Points there;
+        for (const Double3& p : points) there.push_back(into(frame, p));
+        const auto volumes = least_volumes(there);
+        for (std::size_t t = 0; t < k_names.size(); ++t)
+          EXPECT_NEAR(volumes[t] / base[t], 1, 1e-6) << k_names[t] << ": " << name;
       }
     }
   }

@@ -236,13 +236,14 @@ struct AsLozenge {
   std::optional<Volume<double>> operator()(const auto&) const { return std::nullopt; }
 };
 
-std::optional<Volume<double>> as_kind(const Volume<double>& v, VolumeKind own, VolumeKind wanted) {
+std::optional<Volume<double>> as_kind(const Volume<double>& v, VolumeKind wanted) {
   if (wanted == VolumeKind::capsule) return std::visit(AsCapsule{}, v);
   if (wanted == VolumeKind::lozenge) return std::visit(AsLozenge{}, v);
-  return own == wanted ? std::optional(v) : std::nullopt;
+  return kind_of(v) == wanted ? std::optional(v) : std::nullopt;
 }
 
-// What a search must not be worse than: the cheaper methods of its kind, and of kinds that are cases of it.
+// What a search must not be worse than, each in its own type: the cheaper methods of its kind, and of kinds
+// that are cases of it.
 std::vector<Volume<double>> cheaper_fits(const FitMethod& method, const Prepared& p, const FitOptions& how) {
   std::vector<Volume<double>> out;
   if (!method.least || method.kind == VolumeKind::kdop) return out;
@@ -255,8 +256,7 @@ std::vector<Volume<double>> cheaper_fits(const FitMethod& method, const Prepared
     const bool wider = (method.kind == VolumeKind::capsule && ball) ||
                        (method.kind == VolumeKind::lozenge && (ball || capsule));
     if (e.method.kind != method.kind && !wider) continue;
-    const Volume<double> v = known ? Volume<double>(*p.capsule) : fit_entry(i, p, how).volume;
-    if (auto as = as_kind(v, e.method.kind, method.kind)) out.push_back(std::move(*as));
+    out.push_back(known ? Volume<double>(*p.capsule) : fit_entry(i, p, how).volume);
   }
   return out;
 }
@@ -339,7 +339,14 @@ std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const Fit
   constexpr double k_worth = 2;
   for (const Volume<double>& cheaper : cheaper_fits(method, p, options)) {
     const Volume<double> v = placed(cheaper, p.hull.frame);
-    if (!held || measures_of(v).volume <= out.measures.volume * k_worth) keep_if_less(v);
+    const double volume = measures_of(v).volume;
+    if (held && volume > out.measures.volume * k_worth) continue;
+    keep_if_less(*as_kind(v, method.kind));
+    if (kind_of(v) == method.kind || (held && volume >= out.measures.volume)) continue;
+    // Far from the origin a capsule's ends are rounded, but not the edge of the lozenge that it is: one
+    // through the rounded ends is as small as what is stored of the capsule.
+    if (const auto stored = enclose(v, p.points, corners))
+      keep_if_less(*as_kind(to_double(stored->volume), method.kind));
   }
   if (!held) return std::nullopt;
   if (method.kind == VolumeKind::sphere && method.least) {

@@ -76,15 +76,9 @@ double circle_across(std::span<const Double3> local, Double3& centre) {
   return radius;
 }
 
-// How small it is in this frame, unturned and without care.
-double cost_in_frame(Swept kind, std::span<const Double3> points, const Axes& frame,
-                     std::vector<Double3>& local) {
-  const bool flat = kind == Swept::lozenge;
-  DoubleBox box;
-  for (std::size_t i = 0; i < points.size(); ++i) box.grow(local[i] = into(frame, points[i]));
-  Double3 centre = box.centre();
-  const double r = flat ? box.extent().z / 2 : circle_across(local, centre);
-  if (kind == Swept::line) return r;
+// The volume about the line or plane in the middle with sides as short as this radius lets them be.
+double cost_of_radius(bool flat, std::span<const Double3> local, const DoubleBox& box, const Double3& centre,
+                      double r) {
   double a0 = box.max.x + r, a1 = box.min.x - r, b0 = box.max.y + r, b1 = box.min.y - r;
   for (const Double3& q : local) {
     const double y = flat ? 0 : q.y - centre.y, z = q.z - centre.z;
@@ -93,6 +87,28 @@ double cost_in_frame(Swept kind, std::span<const Double3> points, const Axes& fr
     b0 = std::min(b0, q.y + half), b1 = std::max(b1, q.y - half);
   }
   return swept_volume({std::max(0.0, a1 - a0), flat ? std::max(0.0, b1 - b0) : 0, r});
+}
+
+// How small it is in this frame, unturned and without care. The thinnest is not the least: caps that bulge
+// more shorten it, up to a ball's.
+double cost_in_frame(Swept kind, std::span<const Double3> points, const Axes& frame,
+                     std::vector<Double3>& local) {
+  constexpr int k_radii = 5;
+  const bool flat = kind == Swept::lozenge;
+  DoubleBox box;
+  for (std::size_t i = 0; i < points.size(); ++i) box.grow(local[i] = into(frame, points[i]));
+  Double3 centre = box.centre();
+  const double thinnest = flat ? box.extent().z / 2 : circle_across(local, centre);
+  if (kind == Swept::line) return thinnest;
+  double widest = thinnest * thinnest;
+  for (const Double3& q : local) widest = std::max(widest, dot(q - centre, q - centre));
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < k_radii; ++k) {
+    const double bulge = static_cast<double>(k) / k_radii;
+    const double square = thinnest * thinnest + bulge * bulge * (widest - thinnest * thinnest);
+    least = std::min(least, cost_of_radius(flat, local, box, centre, std::sqrt(square)));
+  }
+  return least;
 }
 
 // How far one is turned from the other, of what tells them apart: the axis of a line or capsule, the axis
