@@ -15,6 +15,7 @@ constexpr int k_rough_rounds = 2;
 constexpr std::size_t k_small_hull = 60;
 constexpr std::size_t k_kept_small = 20, k_kept = 12, k_lozenge_kept_small = 32, k_lozenge_kept = 16;
 constexpr double k_alike = 0.985;              // of frames a sixth of a radian apart
+constexpr double k_same_valley = 0.95;         // a third of a radian
 constexpr std::size_t k_most_looked_at = 128;  // points, for the choice of the starts
 
 Axes about(const Axes& base, const Double3& direction) {
@@ -190,12 +191,19 @@ std::vector<Axes> promising_frames(Swept kind, std::span<const Double3> points, 
     all.push_back({cost_in_frame(kind, some, f, local), f});
   std::stable_sort(all.begin(), all.end(), [](const Frame& a, const Frame& b) { return a.cost < b.cost; });
   std::vector<Axes> kept;
-  for (const Frame& f : all) {
-    if (kept.size() == wanted) break;
-    const bool near = std::any_of(kept.begin(), kept.end(),
-                                  [&](const Axes& k) { return likeness(kind, k, f.axes) > k_alike; });
-    if (!near) kept.push_back(f.axes);
+  const auto keep = [&](const Axes& f) {
+    const bool near =
+        std::any_of(kept.begin(), kept.end(), [&](const Axes& k) { return likeness(kind, k, f) > k_alike; });
+    if (!near && kept.size() < wanted) kept.push_back(f);
+  };
+  // First one a valley: of what is regular, the many images of one would leave no place for another.
+  for (auto f = all.begin(); f != all.end(); ++f) {
+    const bool lowest = std::none_of(all.begin(), f, [&](const Frame& lower) {
+      return likeness(kind, lower.axes, f->axes) > k_same_valley;
+    });
+    if (lowest) keep(f->axes);
   }
+  for (const Frame& f : all) keep(f.axes);
   return kept;
 }
 
