@@ -259,6 +259,24 @@ TEST(FitVolumes, TimeEnoughGivesWhatNoLimitGivesAndAProof) {
   }
 }
 
+TEST(FitVolumes, MoreTimeGivesNoWorseVolumes) {
+  const Points points = battery::torus(40, 32, 0.5, 0.125);
+  std::vector<FittedVolume> before;
+  for (const double seconds : {0.0, 1e-3, 1e-2, 60.0}) {
+    std::vector<FittedVolume> now;
+    for (const FitMethod& m : fit_methods()) {
+      if (!m.least) continue;
+      const auto fitter = VolumeFitter::make(points, {});
+      auto v = fitter->fit(m, {FitQuality::balanced, Deadline::after(seconds)});
+      ASSERT_TRUE(v) << m.name;
+      now.push_back(std::move(*v));
+    }
+    for (std::size_t i = 0; i < before.size(); ++i)
+      EXPECT_LE(now[i].measures.volume, before[i].measures.volume * (1 + 1e-6)) << label(now[i]);
+    before = std::move(now);
+  }
+}
+
 TEST(FitVolumes, LowerBoundsAreSharedWithinAKind) {
   auto all = fit_all(battery::cube());
   share_lower_bounds(all);

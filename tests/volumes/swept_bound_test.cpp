@@ -99,7 +99,8 @@ TEST(SweptBound, ALimitOfWorkGivesTheSameBitsAgainAndAProofStill) {
 
 TEST(SweptBound, ALimitOfTimeEndsIt) {
   SweptFit best = search_around(Swept::lozenge, torus());
-  const SweptBound bound = bound_swept(Swept::lozenge, torus(), {0, std::size_t(1) << 40, Deadline::after(0.02)}, best);
+  const SweptBound bound =
+      bound_swept(Swept::lozenge, torus(), {0, std::size_t(1) << 40, Deadline::after(0.02)}, best);
   EXPECT_LE(bound.lower_bound, best.volume());
   EXPECT_LT(bound.separations, 100000u);
 }

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -194,10 +195,16 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
   fit.size = length(fitter->hull().box.extent()) * frame.scale;
   if (choosing.criterion == Criterion::aspect || options.tune) fit.ratios = ratios_of(*fitter);
   const std::vector<FitMethod> wanted = methods_for(methods, choosing, fit.ratios);
+  // What quick methods leave of their shares is the searches'.
+  std::vector<std::size_t> order(wanted.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return wanted[i].quick; });
+  std::vector<std::optional<FittedVolume>> fitted(wanted.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    fitted[order[k]] = fitter->fit(wanted[order[k]], {options.quality, deadline.share(order.size() - k)});
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    auto v = fitter->fit(wanted[i], {options.quality, deadline.share(wanted.size() - i)});
-    if (v) {
-      fit.volumes.push_back(std::move(*v));
+    if (fitted[i]) {
+      fit.volumes.push_back(std::move(*fitted[i]));
     } else {
       fit.dropped.push_back(wanted[i].kind);
     }

@@ -101,7 +101,8 @@ Fit least_box(const Prepared& p, const FitOptions& how) {
 }
 Fit projected_circle(const Prepared& p, const FitOptions& how);
 BoundedFit<Capsule<double>> capsule_with(const Prepared& p, const SweptBoundOptions& options) {
-  const Fit circle = projected_circle(p, {FitQuality::balanced, options.deadline});
+  // One start among many: most of the time is the search's own.
+  const Fit circle = projected_circle(p, {FitQuality::balanced, options.deadline.share(4)});
   return minimal_capsule(p.hull, std::get<Capsule<double>>(circle.volume), options);
 }
 BoundedFit<Capsule<double>> capsule_of(const Prepared& p, const FitOptions& how) {
@@ -114,7 +115,7 @@ Capsule<double> unproven_capsule(const Prepared& p, const Deadline& deadline) {
 }
 // The lozenge starts from the capsule, which no lozenge need be worse than.
 Fit least_lozenge(const Prepared& p, const FitOptions& how) {
-  if (!p.capsule) p.capsule = unproven_capsule(p, how.deadline);
+  if (!p.capsule) p.capsule = unproven_capsule(p, how.deadline.share(3));
   return bounded(minimal_lozenge(p.hull, *p.capsule, limits<SweptBoundOptions>(how, k_lozenge_gap)));
 }
 Fit least_capsule(const Prepared& p, const FitOptions& how) {
