@@ -1,6 +1,5 @@
 #include "tools/treeplay/headless.h"
 
-
 #include <array>
 #include <cstdlib>
 #include <vector>

@@ -29,7 +29,7 @@ double seconds(Clock::time_point from, Clock::time_point to) {
 class Window final : public GlContext {
  public:
   static Result<std::unique_ptr<Window>> open(int width, int height, const std::string& title) {
-      std::unique_ptr<Window> w(new Window);
+    std::unique_ptr<Window> w(new Window);
     if (!glfwInit()) return w->failed("cannot open the display");
     w->initialised_ = true;
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
