@@ -160,6 +160,42 @@ TEST_F(TreeplayForest, ATreeCastsItsShadowAwayFromTheSun) {
   EXPECT_LT(light("-90,45", 35), 0.9 * light("90,45", 35));
 }
 
+TEST_F(TreeplayForest, WhatIsBeyondItsViewRangeCastsNoShadow) {
+  const auto cast = [&](const char* range) {
+    write_text(file("page.json"), std::string(R"({"terrain": {"size": [40, 40]},
+      "types": [{"name": "rich", "tree": "rich.stree", "view_range": )") +
+                                      range + R"(, "instances": [{"x": 20, "z": 20}]}]})");
+    EXPECT_EQ(run_process({"ecogen", file("page.json"), "-o", file("f.eco")}).status, 0);
+    EXPECT_EQ(play({"--camera", "20,60,20.01,20,0,20,20", "--level", "0"}).status, 0);
+    return stat(23);
+  };
+  const double seen = cast("80");
+  EXPECT_EQ(stat(10), 1);
+  const double unseen = cast("30");
+  EXPECT_EQ(stat(10), 0);
+  EXPECT_LT(unseen, seen);
+}
+
+// What the sky's light takes of a tree does not depend on what else is in the file.
+TEST_F(TreeplayForest, TheSkysLightIsThatOfTheTreesInAnyOrder) {
+  std::vector<Image> pictures;
+  for (const bool other_first : {false, true}) {
+    const std::string trees =
+        R"({"name": "rich", "tree": "rich.stree", "instances": [{"x": 15, "z": 20}, {"x": 20, "z": 22}]})";
+    const std::string others =
+        R"({"name": "other", "tree": "rich.stree", "instances": [{"x": 25, "z": 20}, {"x": 21, "z": 15}]})";
+    write_text(file("page.json"), R"({"terrain": {"size": [40, 40]}, "types": [)" +
+                                      (other_first ? others + "," + trees : trees + "," + others) + "]}");
+    ASSERT_EQ(run_process({"ecogen", file("page.json"), "-o", file("f.eco")}).status, 0);
+    ASSERT_EQ(play({"--camera", "20,6,34,20,1,20,30", "--level", "0"}).status, 0);
+    auto picture = read_image(file("f.png"));
+    ASSERT_TRUE(picture);
+    pictures.push_back(std::move(*picture));
+  }
+  for (std::size_t i = 0; i < pictures[0].rgba.size(); ++i)
+    ASSERT_NEAR(pictures[0].rgba[i], pictures[1].rgba[i], 1) << i;
+}
+
 TEST_F(TreeplayLargeForest, ATreeThatHasChangedIsToldWithBothHashes) {
   ASSERT_EQ(run_process({"treedump", file("f.eco"), "--verify"}).status, 0);
   std::filesystem::copy_file(file("rich.stree"), file("far.stree"),

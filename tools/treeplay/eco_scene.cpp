@@ -1,6 +1,7 @@
 #include "tools/treeplay/eco_scene.h"
 
 #include "lib/formats/ecosystem_file.h"
+#include "lib/formats/hash.h"
 #include "lib/formats/random.h"
 #include "lib/formats/tree_file.h"
 #include "lib/formats/type_hash.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -84,7 +86,17 @@ class EcosystemReader {
       scene_.images.push_back(used[i] ? read_texture(textures[i], i, file, context_) : std::nullopt);
   }
 
+  // Types of one tree share all of it.
   Result<void> add_type(const TreeType& type) {
+    const std::pair<std::string, std::uint64_t> key{
+        type.uri, type.packed.empty() ? type.hash : xxh3(type.packed.span())};
+    const auto [known, is_new] = known_.try_emplace(key, scene_.forest.types.size());
+    if (is_new) return load_type(type);
+    scene_.forest.types.push_back(ForestType(scene_.forest.types[known->second]));
+    return {};
+  }
+
+  Result<void> load_type(const TreeType& type) {
     const fs::path path = path_.parent_path() / type.uri;
     const std::string name =
         type.packed.empty() ? path.string() : fmt::format("{}, tree '{}'", path_.string(), type.name);
@@ -149,6 +161,7 @@ class EcosystemReader {
   bool with_levels_ = false;
   Context& context_;
   const Ecosystem* eco_ = nullptr;
+  std::map<std::pair<std::string, std::uint64_t>, std::size_t> known_;  // by name and hash; the first type
 };
 
 // Triangles of trees that stand for all: of a few trees many, enough for cells of metres; of a forest of
@@ -195,17 +208,29 @@ std::vector<CloudTree> cloud_trees(const Ecosystem& eco) {
   return trees;
 }
 
+// Of a tree where it stands, to a decimetre, and its type's name: the same whatever else is in the file.
+std::uint64_t seed_of(const Ecosystem& eco, const CloudTree& tree) {
+  std::uint64_t seed = xxh3(eco.types[tree.type].name);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double at = eco.origin[static_cast<int>(a)] + double{tree.copy.rows[a].w};
+    seed = Random::mix(seed ^ static_cast<std::uint64_t>(std::llround(10 * at)));
+  }
+  return seed;
+}
+
 // Some triangles of a tree, each as much larger as there are fewer of them.
-void add_to_cloud(const Scene& scene, const CloudTree& tree, std::size_t number, std::size_t most,
-                  TreeGeometry& cloud, std::vector<float>& opacity) {
+void add_to_cloud(const Scene& scene, const CloudTree& tree, std::size_t most, TreeGeometry& cloud,
+                  std::vector<float>& opacity) {
   const TreeGeometry& g = scene.geometry;
+  const Random of_tree(seed_of(*scene.eco, tree));
+  std::uint64_t number = 0;
   for (const DrawRange& range : scene.forest.types[tree.type].levels[0]) {
+    Random random = of_tree.fork(number++);
     const std::size_t triangles = range.index_count / 3, taken = std::min(triangles, most);
     if (taken == 0) continue;
     const auto larger = static_cast<float>(
         std::sqrt(static_cast<double>(triangles) / static_cast<double>(taken) * tree.stands_for));
     const auto first = static_cast<std::uint32_t>(cloud.indices.size());
-    Random random = Random(number).fork(range.first_index);
     for (std::size_t t = 0; t < taken; ++t) {
       const std::size_t triangle = random.below(triangles);
       std::array<Float3, 3> corner;
@@ -236,11 +261,9 @@ SkyLight forest_sky(const Scene& scene) {
   TreeGeometry cloud;
   cloud.bounds = scene.geometry.bounds;
   std::vector<float> opacity;
-  std::size_t number = 0;
   const std::size_t most =
       scene.eco->instance_count() <= k_few_trees ? k_triangles_of_few : k_triangles_of_many;
-  for (const CloudTree& tree : cloud_trees(*scene.eco))
-    add_to_cloud(scene, tree, number++, most, cloud, opacity);
+  for (const CloudTree& tree : cloud_trees(*scene.eco)) add_to_cloud(scene, tree, most, cloud, opacity);
   if (cloud.indices.empty()) return {};
   return make_sky_light(cloud, opacity, 96);
 }

@@ -29,6 +29,11 @@ bool is_outside(const Frustum& frustum, const Double3& origin_from_eye, const St
                      [&](const Plane& p) { return dot(p.normal, c) + p.offset < -double{i.radius}; });
 }
 
+// Beyond what its type is drawn at; range 0: no limit.
+bool is_beyond(double range, const Double3& eye, const StreamedInstance& i) {
+  return range > 0 && distance(eye, to_double(i.centre)) - double{i.radius} > range;
+}
+
 // How far its foot is from the eye, for a tree of scale 1: one of half the size looks at 10 m as the tree
 // itself does at 20 m.
 double own_distance(const StreamedInstance& i, const Double3& eye) {
@@ -136,7 +141,7 @@ void ForestPlanner::see(const View& view, const ForestWish& wish, ForestFrame& f
       const bool test = !s.whole && by_ != BlockHierarchy::none;
       counts.instances_tested += test;
       if (test && is_outside(frustum, -eye, i)) continue;
-      if (range > 0 && distance(eye, to_double(i.centre)) - double{i.radius} > range) continue;
+      if (is_beyond(range, eye, i)) continue;
       counts.triangles += show(i, block.type, {eye, wish.pixel, nullptr}, frame.seen);
       ++counts.instances_drawn;
     }
@@ -146,7 +151,7 @@ void ForestPlanner::see(const View& view, const ForestWish& wish, ForestFrame& f
   counts.triangles += show_ground(frustum, view.eye, frame.seen);
 }
 
-// Whatever may cast into a map, seen or not.
+// Whatever may cast into a map, seen or not, but not what is beyond its view range: a shadow of nothing.
 void ForestPlanner::cast(const View& view, const ForestWish& wish, ForestFrame& frame, ForestCounts& counts) {
   const DoubleBox scene = absolute(eco_.bounds, eco_.origin);
   if (!wish.lit || scene.empty()) return;
@@ -168,11 +173,13 @@ void ForestPlanner::cast(const View& view, const ForestWish& wish, ForestFrame& 
                    seen_);
     ForestView& casters = frame.casters[c];
     casters.impostors.resize(eco_.types.size());
-    for (const SeenBlock& s : seen_)
+    for (const SeenBlock& s : seen_) {
+      const std::uint32_t type = eco_.blocks[s.block].type;
+      const double range = double{eco_.types[type].view_range};
       for (const StreamedInstance& i : stream_.block(s.block))
-        if (i.radius >= 0 && (s.whole || !is_outside(cascade.casters, -eye, i)))
-          counts.shadow_triangles +=
-              show(i, eco_.blocks[s.block].type, {eye, wish.pixel, &wish.sun}, casters);
+        if (i.radius >= 0 && !is_beyond(range, eye, i) && (s.whole || !is_outside(cascade.casters, -eye, i)))
+          counts.shadow_triangles += show(i, type, {eye, wish.pixel, &wish.sun}, casters);
+    }
     counts.shadow_triangles += show_ground(cascade.casters, view.eye, casters);
   }
 }

@@ -83,9 +83,12 @@ Result<void> Renderer::upload_impostors() {
   std::vector<const TreeImpostor*> wanted;
   if (scene_.levels && scene_.levels->impostor()) wanted.push_back(&*scene_.levels->impostor());
   for (const ForestType& type : scene_.forest.types) wanted.push_back(type.impostor.get());
-  for (const TreeImpostor* pictures : wanted) {
-    impostor_of_.push_back(k_none);
-    if (!pictures) continue;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const TreeImpostor* pictures = wanted[i];
+    const auto same = std::find(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(i), pictures);
+    const auto first = static_cast<std::size_t>(same - wanted.begin());
+    impostor_of_.push_back(pictures && first < i ? impostor_of_[first] : k_none);
+    if (!pictures || first < i) continue;
     const auto number = upload(pictures);
     if (!number) return std::unexpected(number.error());
     impostor_of_.back() = *number;
