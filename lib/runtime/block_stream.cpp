@@ -49,6 +49,15 @@ BlockStream::Sphere BlockStream::sphere_of(const TreeType& type, bool moves) {
   return sphere;
 }
 
+double reach_from_foot(const TreeType& type) {
+  double reach = 0;
+  for (const bool moves : {false, true}) {
+    const BlockStream::Sphere sphere = BlockStream::sphere_of(type, moves);
+    if (sphere.radius >= 0) reach = std::max(reach, length(sphere.centre) + sphere.radius);
+  }
+  return reach;
+}
+
 StreamedInstance BlockStream::ready(const InstanceBlock& block, std::size_t index) const {
   const Instance i = instance_of(eco_, block, index);
   const Double3 x = rotate(i.rotation, {i.scale, 0, 0}), y = rotate(i.rotation, {0, i.scale, 0}),

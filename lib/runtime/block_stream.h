@@ -32,6 +32,9 @@ struct StreamCounts {
   std::uint64_t unpacked = 0;                          // instances; more than read when blocks come back
 };
 
+// How far the spheres of instances reach from their feet, as far as a scale of 1 goes: whatever their motion.
+double reach_from_foot(const TreeType& type);
+
 class BlockStream {
  public:
   // Keeps a reference. `budget`: bytes of unpacked instances to keep when they are not used any more.
@@ -55,6 +58,7 @@ class BlockStream {
     Double3 centre;
     double radius = -1;
   };
+  friend double reach_from_foot(const TreeType& type);
   struct Kept {
     std::vector<StreamedInstance> instances;
     std::uint64_t used = 0;  // in this frame; 0: never

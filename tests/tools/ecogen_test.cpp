@@ -2,13 +2,9 @@
 #include "lib/formats/ecosystem_file.h"
 #include "lib/formats/import/image.h"
 #include "lib/formats/instance_codec.h"
-#include "lib/formats/spectrum_file.h"
 #include "lib/formats/tree_file.h"
-#include "lib/formats/tree_volumes.h"
 #include "tests/formats/tree_maker.h"
-#include "tests/tools/little_obj.h"
-#include "tests/tools/process.h"
-#include "tests/tools/rich_tree.h"
+#include "tests/tools/ecogen_folder.h"
 
 #include <cmath>
 #include <fstream>
@@ -19,56 +15,6 @@
 
 namespace copse {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// A folder with two little trees and a page.
-class Ecogen : public testing::Test {
- protected:
-  void SetUp() override {
-    for (const char* name : {"a.stree", "b.tree"}) {
-      const bool sensitive = std::string(name) == "a.stree";
-      Tree tree = make_tree({.kind = sensitive ? TreeKind::sensitive : TreeKind::still}, 1);
-      tree.header.origin = {};  // it stands where its instances do
-      const auto bytes = encode_tree(tree);
-      ASSERT_TRUE(bytes);
-      write_text(file(name), {bytes->begin(), bytes->end()});
-    }
-    page_ = Json::parse(R"({"seed": 3,
-      "terrain": {"size": [60, 40], "samples": [31, 21], "faults": {"count": 20, "first": 0.5, "smooth": 1}, "material": "soil"},
-      "materials": [{"name": "soil", "diffuse": [0.2, 0.2, 0.1]}, {"name": "gold"}],
-      "types": [{"name": "a", "tree": "a.stree", "count": 200, "scale": {"min": 0.01, "max": 0.02}, "tilt": "terrain"},
-                {"name": "b", "tree": "b.tree", "count": 50, "scale": 0.03}]})");
-  }
-
-  std::string file(const std::string& name) const { return folder_.file(name); }
-  void save() const { write_text(file("page.json"), page_.dump(1)); }
-  Outcome run(std::vector<std::string> more = {}) const {
-    save();
-    std::vector<std::string> command{"ecogen", file("page.json"), "-o", file("out.eco")};
-    command.insert(command.end(), more.begin(), more.end());
-    return run_process(command);
-  }
-  Ecosystem load() const {
-    const auto opened = EcosystemFile::open(file("out.eco"));
-    EXPECT_TRUE(opened) << (opened ? "" : opened.error().what);
-    EXPECT_EQ(opened->verify(), std::vector<std::string>{});
-    auto eco = opened->load();
-    EXPECT_TRUE(eco);
-    return std::move(*eco);
-  }
-  // The one line of a refusal.
-  std::string refusal(int status = 1) const {
-    const Outcome o = run();
-    EXPECT_EQ(o.status, status) << o.err;
-    EXPECT_EQ(line_count(o.err), 1u) << o.err;
-    EXPECT_FALSE(std::filesystem::exists(file("out.eco")));
-    return o.err;
-  }
-
-  TemporaryFolder folder_;
-  Json page_;
-};
 
 TEST_F(Ecogen, MakesAnEcosystemThatVerifies) {
   const Outcome o = run({"--report", file("r.json"), "--depfile", file("d")});
@@ -172,6 +118,13 @@ TEST_F(Ecogen, EditsSetValues) {
   EXPECT_EQ(eco.types[1].name, "fern");
   for (const char* wrong : {"types[9].count=1", "types[0]count", "=1", "types[x].count=1", "no.such=1"})
     EXPECT_EQ(run({"--edit", wrong}).status, 2) << wrong;
+  page_["types"][0].erase("scale");
+  const Outcome o = run({"--edit", "types[0].scale.max=0.1"});
+  EXPECT_EQ(o.status, 2);
+  EXPECT_NE(o.err.find(R"(--edit 'types[0].scale={"max": 0.1, ...}')"), std::string::npos) << o.err;
+  EXPECT_EQ(run({"--edit", R"(types[0].scale={"max": 0.1, "min": 0.01})"}).status, 0);
+  page_["block_trees"] = {"kd", "kd"};
+  EXPECT_EQ(run().status, 1);
 }
 
 TEST_F(Ecogen, ExtremesHaveADefinedResult) {
@@ -316,117 +269,6 @@ TEST_F(Ecogen, DiscsByHandThatOverlapAreWarnedOf) {
   const Outcome o = run();
   EXPECT_EQ(o.status, 0);
   EXPECT_NE(o.err.find("types[0] (a): 1 by hand overlap others by hand"), std::string::npos) << o.err;
-}
-
-TEST_F(Ecogen, WhatIsPackedNeedsNoOtherFile) {
-  ASSERT_EQ(run({"--pack", "--report", file("r.json")}).status, 0);
-  const Ecosystem eco = load();
-  EXPECT_TRUE(eco.types[0].uri.empty());
-  const auto tree = TreeFile::from_bytes(eco.types[0].packed.to_vector(), "packed");
-  ASSERT_TRUE(tree) << tree.error().what;
-  EXPECT_EQ(tree->verify(), std::vector<std::string>{});
-  EXPECT_FALSE(tree->has("PROV"));
-  EXPECT_NE(read_text(file("r.json")).find("material 'gold'"), std::string::npos);  // nothing is made of it
-}
-
-// What a type's packed tree is.
-TreeFile packed_tree(const Ecosystem& eco, std::size_t type) {
-  auto tree = TreeFile::from_bytes(eco.types[type].packed.to_vector(), "packed");
-  EXPECT_TRUE(tree) << tree.error().what;
-  EXPECT_EQ(tree->verify(), std::vector<std::string>{});
-  return *tree;
-}
-
-TEST_F(Ecogen, PackingLeavesOutLevelsThatNoFrameReaches) {
-  write_rich_tree(folder_);
-  page_["types"] =
-      Json::parse(R"([{"name": "rich", "tree": "rich.stree", "count": 5, "scale": {"min": 0.5, "max": 1}}])");
-  const auto has_levels = [&](const char* range) {
-    EXPECT_EQ(run({"--pack", "--view-range", range, "--report", file("r.json")}).status, 0);
-    const bool has = has_spectra(packed_tree(load(), 0).container());
-    EXPECT_EQ(read_text(file("r.json")).find("levels of detail") == std::string::npos, has);
-    return has;
-  };
-  EXPECT_TRUE(has_levels("0"));   // no limit
-  EXPECT_TRUE(has_levels("20"));  // at scale 1
-  EXPECT_FALSE(has_levels("4"));  // at most 8 m at half the size
-  const Ecosystem eco = load();
-  EXPECT_EQ(eco.types[0].view_range, 4);
-}
-
-TEST_F(Ecogen, PackingLeavesOutVolumesThatNothingIsTestedWith) {
-  write_rich_tree(folder_);
-  page_["types"] = Json::parse(R"([{"name": "rich", "tree": "rich.stree", "count": 5}])");
-  const auto whole = TreeFile::open(file("rich.stree"));
-  ASSERT_TRUE(whole);
-  const auto all = load_volumes(*whole);
-  ASSERT_TRUE(all);
-  ASSERT_EQ(run({"--pack"}).status, 0);
-  const auto still = load_volumes(packed_tree(load(), 0));
-  ASSERT_TRUE(still) << still.error().what;
-  EXPECT_EQ(still->sets.size(), all->sets.size() / 2);  // no envelopes
-  EXPECT_EQ(still->volumes.size(), still->sets.size());
-  EXPECT_EQ(still->chosen(still->sets[0]), all->chosen(all->sets[0]));
-  page_["types"][0]["motion"] = 2;
-  const Outcome o = run({"--pack"});
-  ASSERT_EQ(o.status, 0);
-  EXPECT_EQ(o.err.find("envelope"), std::string::npos);
-  const auto moving = load_volumes(packed_tree(load(), 0));
-  ASSERT_TRUE(moving);
-  EXPECT_EQ(moving->sets.size(), all->sets.size());
-}
-
-TEST_F(Ecogen, BoxesAreThoseOfTheTreesVolumesAndOfTheirMotion) {
-  const auto volume_of_boxes = [&] {
-    double sum = 0;
-    const Ecosystem eco = load();
-    for (const InstanceBlock& b : eco.blocks) {
-      const Float3 e = b.bounds.extent();
-      sum += double{e.x} * double{e.y} * double{e.z};
-    }
-    return sum;
-  };
-  write_rich_tree(folder_);
-  ASSERT_EQ(run_process({"treeprep", file("rich.obj"), "-o", file("none.stree")}).status, 0);
-  page_["hierarchy_depth"] = 6;
-  page_["types"] = Json::parse(
-      R"([{"name": "rich", "tree": "none.stree", "count": 200, "scale": 0.1, "tilt": {"pitch": 20, "roll": 20}}])");
-  ASSERT_EQ(run().status, 0);
-  const double boxes = volume_of_boxes();
-  page_["types"][0]["tree"] = "rich.stree";
-  ASSERT_EQ(run().status, 0);
-  const double volumes = volume_of_boxes();
-  EXPECT_LT(volumes, 0.9 * boxes);
-  page_["types"][0]["motion"] = 1;
-  ASSERT_EQ(run().status, 0);
-  EXPECT_GT(volume_of_boxes(), volumes);
-  page_["types"][0]["tree"] = "none.stree";
-  const Outcome o = run();
-  ASSERT_EQ(o.status, 0);
-  EXPECT_NE(o.err.find("has no envelope of its motion"), std::string::npos) << o.err;
-}
-
-TEST_F(Ecogen, PackingCopiesInTheTexturesThatAreShownAndNoOthers) {
-  std::string obj = little_tree_obj(6, 5, 4);
-  obj.replace(obj.find("none.mtl"), 8, "t.mtl");
-  write_text(file("t.obj"), obj);
-  write_text(file("t.mtl"), "newmtl bark\nmap_Kd bark.png\nnewmtl leaf\nmap_Kd leaf.png\n");
-  const Image image{.width = 2, .height = 1, .rgba = {255, 0, 0, 255, 0, 255, 0, 255}, .has_alpha = false};
-  for (const char* name : {"bark.png", "leaf.png"}) ASSERT_TRUE(write_image(file(name), image));
-  ASSERT_EQ(run_process({"treeprep", file("t.obj"), "-o", file("t.stree")}).status, 0);
-  page_["types"] = Json::parse(R"([{"name": "t", "tree": "t.stree", "count": 5, "trunk_material": "gold"}])");
-  ASSERT_EQ(run({"--pack", "--report", file("r.json"), "--depfile", file("d")}).status, 0);
-  const auto tree = packed_tree(load(), 0).load();
-  ASSERT_TRUE(tree);
-  ASSERT_EQ(tree->textures.size(), 1u);  // every trunk is of gold
-  EXPECT_TRUE(tree->textures[0].uri.empty());
-  const std::string png = read_text(file("leaf.png"));
-  EXPECT_EQ(tree->textures[0].bytes, (std::vector<std::uint8_t>{png.begin(), png.end()}));
-  EXPECT_NE(read_text(file("r.json")).find("bark.png"), std::string::npos);
-  EXPECT_NE(read_text(file("d")).find("leaf.png"), std::string::npos);
-  page_["types"][0]["leaf_material"] = "gold";
-  ASSERT_EQ(run({"--pack"}).status, 0);
-  EXPECT_TRUE(packed_tree(load(), 0).load()->textures.empty());
 }
 
 TEST_F(Ecogen, SpacedTypesKeepOffTheFeetThatTheyAreToAvoid) {

@@ -61,6 +61,11 @@ std::optional<std::vector<Step>> steps_of(std::string_view path) {
   return steps;
 }
 
+std::string text_of(const Step& step, bool first) {
+  if (const auto* key = std::get_if<std::string>(&step)) return first ? *key : "." + *key;
+  return fmt::format("[{}]", std::get<std::size_t>(step));
+}
+
 // What the step leads to, null when that does not exist; the last step of an edit may make a key.
 Json* follow(Json& from, const Step& step, bool may_make) {
   if (const auto* key = std::get_if<std::string>(&step)) {
@@ -110,12 +115,22 @@ Result<void> edit(Json& document, const std::string& assignment) {
   if (equal == std::string::npos) return usage("there is no '='");
   const auto steps = steps_of(std::string_view(assignment).substr(0, equal));
   if (!steps) return usage("this is no path");
+  const std::string value = assignment.substr(equal + 1);
   Json* at = &document;
+  std::string path;
   for (std::size_t i = 0; i < steps->size(); ++i) {
-    at = follow(*at, (*steps)[i], i + 1 == steps->size());
+    const bool last = i + 1 == steps->size(), before_last = i + 2 == steps->size();
+    const bool in_object = at->is_object();
+    path += text_of((*steps)[i], i == 0);
+    at = follow(*at, (*steps)[i], last);
+    const auto* key = last ? nullptr : std::get_if<std::string>(&(*steps)[i + 1]);
+    if (before_last && key && ((!at && in_object) || (at && !at->is_structured())))
+      return fail(
+          Fault::usage, "",
+          fmt::format("--edit '{}': {} is {}", assignment, path, at ? "no object" : "not in the file"),
+          fmt::format("set it with all that it needs: --edit '{}={{\"{}\": {}, ...}}'", path, *key, value));
     if (!at) return usage("there is nothing of this path in the file");
   }
-  const std::string value = assignment.substr(equal + 1);
   Json parsed = Json::parse(value, nullptr, false);
   *at = parsed.is_discarded() ? Json(value) : std::move(parsed);
   return {};

@@ -3,6 +3,7 @@
 #include "lib/analysis/ecosystem/degrees.h"
 #include "lib/formats/instance_bounds.h"
 #include "lib/runtime/block_culling.h"
+#include "lib/runtime/block_stream.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,8 +33,9 @@ class Frames {
   }
 
   // How far from the eye some frame shows what is in the box, its farthest corner taken, no farther than
-  // `range` (0: any distance); 0 when no frame does.
-  double farthest(const DoubleBox& box, double range) const {
+  // `range` (0: any distance); 0 when no frame does. `sphere`: how far from
+  // its foot that of a tree reaches by which the player tells what is in range.
+  double farthest(const DoubleBox& box, double range, double sphere) const {
     double farthest = 0;
     for (std::size_t f = 0; f < views_.size(); ++f) {
       const Double3& eye = views_[f].eye;
@@ -43,7 +45,7 @@ class Frames {
       const double reach = std::sqrt(dot(far, far));
       const double margin = step_ + reach * turn_;
       if (reach + margin <= farthest) continue;
-      if (range > 0 && distance_to(eye, box) > range + step_) continue;
+      if (range > 0 && distance_to(eye, box) > range + sphere + step_) continue;
       const Double3 m{margin, margin, margin};
       if (classify(frusta_[f], eye, {box.min - m, box.max + m}) != Visibility::outside)
         farthest = reach + margin;
@@ -77,16 +79,21 @@ Seen drop_unseen(std::vector<Instance>& instances, const std::vector<TreeType>& 
   std::vector<DoubleBox> boxes(k_cells * k_cells * types.size());
   const SinCos sun = sin_cos_degrees(lowest_sun);
   const double shadow = sun.cos / sun.sin;  // of a height of 1
+  std::vector<double> sphere(boxes.size()), reach_of_type;
+  for (const TreeType& t : types) reach_of_type.push_back(reach_from_foot(t));
   for (const Instance& i : instances) {
     DoubleBox box = instance_bounds(types[i.type], i);
     const double reach = shadow * box.extent().y;
     box.min -= Double3{reach, 0, reach}, box.max += Double3{reach, 0, reach};
-    boxes[part_of(i)].grow(box);
+    const std::size_t part = part_of(i);
+    boxes[part].grow(box);
+    sphere[part] = std::max(sphere[part], i.scale * reach_of_type[i.type]);
   }
   const Frames frames(path);
   std::vector<double> farthest(boxes.size());
   tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t b) {
-    if (!boxes[b].empty()) farthest[b] = frames.farthest(boxes[b], types[b % types.size()].view_range);
+    if (!boxes[b].empty())
+      farthest[b] = frames.farthest(boxes[b], types[b % types.size()].view_range, sphere[b]);
   });
   Seen seen{.dropped = instances.size(), .farthest = std::vector<double>(types.size())};
   for (std::size_t b = 0; b < boxes.size(); ++b)

@@ -2,6 +2,7 @@
 
 #include "lib/formats/ecosystem_header.h"
 #include "lib/formats/materials.h"
+#include "lib/runtime/block_stream.h"
 #include "tools/ecogen/pack_tree.h"
 #include "tools/ecogen/page_textures.h"
 
@@ -102,8 +103,10 @@ std::vector<TreeUse> uses_of(const std::vector<Instance>& instances, const Built
     (i.motion == 0 ? use.stands : use.moves) = true;
     smallest[i.type] = std::min(smallest[i.type], i.scale);
   }
-  // A tree of half the size looks at 10 m as the tree itself does at 20 m.
-  for (std::size_t t = 0; t < uses.size(); ++t) uses[t].farthest = built.farthest[t] / smallest[t];
+  // A tree of half the size looks at 10 m as the tree itself does at 20 m. Its level goes by the distance of
+  // its foot, but it is shown as long as any of it is near enough.
+  for (std::size_t t = 0; t < uses.size(); ++t)
+    uses[t].farthest = built.farthest[t] / smallest[t] + reach_from_foot(built.eco.types[t]);
   return uses;
 }
 

@@ -1,6 +1,7 @@
 #include "tools/ecogen/pack_tree.h"
 
 #include "lib/formats/foliage_cells.h"
+#include "lib/formats/impostors.h"
 #include "lib/formats/mapped_file.h"
 #include "lib/formats/spectrum_file.h"
 #include "lib/formats/tree_file.h"
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 3> k_level_sections{"LSTR", "LSLV", "LSLD"};
+constexpr std::array<std::string_view, 3> k_impostor_sections{"IMPO", "IMPA", "IMPN"};
 constexpr std::array<std::string_view, 6> k_cell_sections{"FCEL", "FORD", "FVWS", "FVTR", "FVIS", "FPAR"};
 constexpr std::array<std::string_view, 4> k_volume_sections{"VSET", "VOLU", "VNUM", "VNOD"};
 
@@ -133,15 +135,20 @@ class Packer {
     return {};
   }
 
+  // And its picture from afar, which players show behind the levels only.
   bool shows_levels() {
-    if (!has_spectra(file_.container())) return false;
+    if (!has_spectra(file_.container())) return true;  // none to drop
     const auto spectra = load_spectra(file_.container(), file_.counts().radii, file_.counts().materials);
-    if (!spectra || full_detail(*spectra) <= use_.farthest)
-      return true;  // what is unsound is not for us to drop
-    note("levels of detail",
-         fmt::format("full detail reaches {:.4g} m, it is shown up to {:.4g} m", full_detail(*spectra),
-                     use_.farthest),
-         stored_bytes(file_.container(), k_level_sections));
+    const auto impostor = read_impostor(file_);
+    if (!spectra || !impostor) return true;  // what is unsound is not for us to drop
+    double near = full_detail(*spectra);
+    if (!impostor->empty()) near = std::min(near, double{impostor->distance});
+    if (near <= use_.farthest) return true;
+    const std::string why =
+        fmt::format("full detail reaches {:.4g} m, it is shown up to {:.4g} m", near, use_.farthest);
+    note("levels of detail", why, stored_bytes(file_.container(), k_level_sections));
+    if (!impostor->empty())
+      note("picture from afar", why, stored_bytes(file_.container(), k_impostor_sections));
     return false;
   }
 
@@ -193,7 +200,8 @@ class Packer {
     const bool levels = shows_levels(), cells = shows_cells();
     for (const SectionInfo& s : file_.sections()) {
       if (own.contains(s.name) || base->find(s.name)) continue;
-      if (!levels && is_one_of(k_level_sections, s.name)) continue;
+      if (!levels && (is_one_of(k_level_sections, s.name) || is_one_of(k_impostor_sections, s.name)))
+        continue;
       if (!cells && is_one_of(k_cell_sections, s.name)) continue;
       const auto bytes = file_.container().read(s);
       if (!bytes) return std::unexpected(bytes.error());

@@ -20,10 +20,10 @@ struct TreeUse {
 };
 
 // The file of `tree` without its provenance; without textures that only parts have whose instances bring
-// their own materials; without levels of detail and foliage cells when full detail reaches as far as it is
-// shown; of bounding volumes only those to test with, and envelopes only of what moves. Texture files beside
-// the tree are copied in; one that is not there stays a name, with a warning. Notes in `left_out` what went
-// and the bytes that it had.
+// their own materials; without levels of detail (and the picture behind them) and foliage cells when full
+// detail reaches as far as it is shown; of bounding volumes only those to test with, and envelopes only of
+// what moves. Texture files beside the tree are copied in; one that is not there stays a name, with a
+// warning. Notes in `left_out` what went and the bytes that it had.
 Result<std::vector<std::uint8_t>> pack_tree(const std::filesystem::path& tree, const TreeUse& use,
                                             std::vector<LeftOut>& left_out, Context& context);
 
