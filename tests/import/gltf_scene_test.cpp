@@ -225,5 +225,18 @@ TEST(GltfScene, SkinnedMeshesStandWhereTheirJointsAre) {
   expect_near(maker.import().mesh.positions[2], {0, 1, 0});
 }
 
+TEST(GltfScene, JointsThatThereAreNotCountAsNone) {
+  GltfMaker maker;
+  const Json attributes = {
+      {"POSITION", maker.triangle()},
+      {"JOINTS_0", maker.accessor<std::int8_t>({-1, 0, 0, 0, 0, -128, 0, 0, 0, 127, 0, 0}, "VEC4")},
+      {"WEIGHTS_0", maker.accessor<float>({1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0}, "VEC4")}};
+  maker.show({{"attributes", attributes}}, {{"skin", 0}});
+  maker.add("nodes", {{"translation", {0, 0, 10}}});
+  maker.json["scenes"][0]["nodes"].push_back(1);
+  maker.add("skins", {{"joints", {1}}});
+  for (const Double3& p : maker.import().mesh.positions) EXPECT_NEAR(p.z, 10, 1e-6);
+}
+
 }  // namespace
 }  // namespace copse

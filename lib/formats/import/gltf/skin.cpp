@@ -12,7 +12,9 @@ Affine GltfSkin::blend(const double* joint, const double* weight) const {
   Affine sum{{Double3{}, Double3{}, Double3{}}, {}};
   double total = 0;
   for (int i = 0; i < 4; ++i) {
-    if (!(weight[i] > 0) || !(joint[i] < static_cast<double>(joints.size()))) continue;
+    // A file may store joints as signed numbers, and then as anything.
+    const bool known = joint[i] >= 0 && joint[i] < static_cast<double>(joints.size());
+    if (!(weight[i] > 0) || !known) continue;
     const Affine& place = joints[static_cast<std::size_t>(joint[i])];
     for (std::size_t axis = 0; axis < 3; ++axis) sum.axes[axis] += place.axes[axis] * weight[i];
     sum.offset += place.offset * weight[i];
