@@ -17,7 +17,7 @@
 
 namespace copse {
 
-inline constexpr std::uint32_t k_spectrum_version = 1;
+inline constexpr std::uint32_t k_spectrum_version = 2;
 
 enum class SpectrumCoding : std::uint32_t {
   fast = 0,   // every array as it lies in memory: exact, nothing to decode
