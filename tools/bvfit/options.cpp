@@ -70,6 +70,7 @@ void add_options(CLI::App& app, Options& options) {
   what->add_option("--budget", options.budget,
                    "the best within this time a set of points; what is found in time depends on the machine")
       ->check(number_above(0))
+      ->default_str("none")
       ->type_name("SECONDS");
 
   CLI::Option_group* choice = app.add_option_group("Choosing");

@@ -14,6 +14,7 @@ std::string excess_text(const FittedVolume& v) {
   if (v.measures.volume == 0) return "0 %";
   if (v.lower_bound <= 0) return "unknown";
   const double excess = 100 * (v.measures.volume / v.lower_bound - 1);
+  if (excess > 1e6) return "none useful";
   return excess < 0.0005 ? "0 %" : fmt::format("{:.3g} %", excess);
 }
 

@@ -114,6 +114,33 @@ struct Verdict {
   Double3 worst;
 };
 
+// ' (minimal)'; of a volume whose method nobody has told nothing.
+std::string method_text(const ReadVolume& v) {
+  return v.method.empty() ? "" : fmt::format(" ({})", v.method);
+}
+
+// Outside is decided exactly; how far, in float64.
+std::string distance_text(double d) {
+  if (d == 0) return "less than float64 can tell";
+  return std::isfinite(d) ? fmt::format("{:.3g}", d) : "no distance that can be told";
+}
+
+// The axis of a box or an ellipsoid that is not unit, which makes it hold nothing; empty when all are.
+std::string false_axis(const Volume<double>& volume) {
+  constexpr double k_rounding = 1e-6;  // as certify takes it
+  return std::visit(
+      [](const auto& v) -> std::string {
+        if constexpr (requires { v.axes; }) {
+          for (std::size_t i = 0; i < v.axes.size(); ++i) {
+            if (const double square = dot(v.axes[i], v.axes[i]); !(std::abs(square - 1) <= k_rounding))
+              return fmt::format("axis {} is {:.9g} long and not 1", i, std::sqrt(square));
+          }
+        }
+        return "";
+      },
+      volume);
+}
+
 // An envelope whose motion nobody has told is judged by what is at rest, and says so.
 std::string name_of_set(const ReadSet& set) {
   if (set.motion == VolumeMotion::rest) return set.name;
@@ -123,8 +150,8 @@ std::string name_of_set(const ReadSet& set) {
 std::string line_of(const Verdict& v) {
   const std::string what = fmt::format("{:<16} {:<10} {:<16}", v.set, v.volume->type, v.volume->method);
   if (v.certificate.holds()) return fmt::format("{} holds all {} points\n", what, v.certificate.points);
-  return fmt::format("{} leaves {} of {} points outside, the worst by {:.3g}\n", what, v.certificate.outside,
-                     v.certificate.points, v.certificate.excess);
+  return fmt::format("{} leaves {} of {} points outside, the worst by {}\n", what, v.certificate.outside,
+                     v.certificate.points, distance_text(v.certificate.excess));
 }
 
 // What is wrong with the numbers that a volume says of itself; empty when nothing is.
@@ -168,7 +195,7 @@ Result<void> verify_volumes(const Options& options, Context& context) {
       if (!context.options().quiet || !v.certificate.holds()) context.print(line_of(v));
       if (v.certificate.holds()) {
         if (const std::string wrong = false_numbers(volume); !wrong.empty() && lie.empty())
-          lie = fmt::format("{} ({}) of '{}': {}", volume.type, volume.method, v.set, wrong);
+          lie = fmt::format("{}{} of '{}': {}", volume.type, method_text(volume), v.set, wrong);
         continue;
       }
       ++failed;
@@ -183,13 +210,16 @@ Result<void> verify_volumes(const Options& options, Context& context) {
                   "fit some first (bvfit -o)");
   if (failed == 0 && !lie.empty()) return refuse(options.verify.string(), lie, "fit them again");
   if (failed == 0) return {};
-  return refuse(options.verify.string(),
-                fmt::format("{} of {} volumes leave points outside; the worst is {} ({}) of '{}': point {} "
-                            "({}, {}, {}) lies {:.3g} outside",
-                            failed, judged, worst.volume->type, worst.volume->method, worst.set,
-                            worst.certificate.worst, worst.worst.x, worst.worst.y, worst.worst.z,
-                            worst.certificate.excess),
-                "fit them again");
+  const std::string which =
+      fmt::format("{} of {} volumes leave points outside; the worst is {}{} of '{}'", failed, judged,
+                  worst.volume->type, method_text(*worst.volume), worst.set);
+  if (const std::string axis = false_axis(worst.volume->volume); !axis.empty())
+    return refuse(options.verify.string(), fmt::format("{}: its {}", which, axis), "write unit axes");
+  return refuse(
+      options.verify.string(),
+      fmt::format("{}: point {} ({}, {}, {}) lies outside by {}", which, worst.certificate.worst,
+                  worst.worst.x, worst.worst.y, worst.worst.z, distance_text(worst.certificate.excess)),
+      "fit them again");
 }
 
 }  // namespace copse::bvfit
