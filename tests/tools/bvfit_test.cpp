@@ -413,6 +413,31 @@ TEST_F(Bvfit, AScenesObjectsAreItsParts) {
   EXPECT_EQ(j["sets"][2]["points"], 4);
 }
 
+TEST_F(Bvfit, PartsAreNumberedInTheOrderOfTheFileAndAllDrawn) {
+  const std::string mesh =
+      save("scene.obj", std::string("o zebra\n") + k_cube +
+                            "o ant\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 9 10 11\nf 9 10 12\n");
+  const json j = fitted({mesh, "--per", "parts", "--html", folder_.file("page.html")});
+  ASSERT_EQ(j["sets"].size(), 2u);
+  EXPECT_EQ(j["sets"][0]["name"], "part 0 zebra");
+  EXPECT_EQ(j["sets"][1]["name"], "part 1 ant");
+  EXPECT_NE(read_text(folder_.path() / "page.html").find("Volumes of the parts"), std::string::npos);
+}
+
+TEST_F(Bvfit, VerifyNamesTheAxisThatIsNotUnitAndNoMethodWhereNoneIsTold) {
+  const std::string box = R"({"sets":[{"volumes":[{"type":"obb","center":[0.5,0.5,0.5],)"
+                          R"("axes":[[1,0,0],[0,2,0],[0,0,1]],"half_extents":[1,1,1]}]}]})";
+  const Outcome axis = run({"--verify", save("axis.json", box), cube()});
+  EXPECT_EQ(axis.status, 1);
+  EXPECT_NE(axis.err.find("axis 1 is 2 long"), std::string::npos) << axis.err;
+  EXPECT_EQ(axis.err.find("()"), std::string::npos) << axis.err;
+  const std::string ball = R"({"sets":[{"volumes":[{"type":"sphere","center":[0.5,0.5,0.5],)"
+                           R"("radius":0.8660254037844386}]}]})";
+  const Outcome hair = run({"--verify", save("hair.json", ball), cube()});
+  EXPECT_EQ(hair.status, 1);
+  EXPECT_EQ(hair.err.find("by 0;"), std::string::npos) << hair.err;
+}
+
 TEST_F(Bvfit, MistakesAreOneLineWithTheRightStatus) {
   const std::string mesh = cube();
   const std::tuple<std::vector<std::string>, int, const char*> mistakes[] = {

@@ -3,6 +3,7 @@
 #include "lib/analysis/volumes/certify.h"
 #include "lib/analysis/volumes/volume_mesh.h"
 #include "lib/formats/export/export.h"
+#include "tools/bvfit/hierarchy.h"
 #include "tools/picture/mesh_picture.h"
 
 #include <algorithm>
@@ -178,14 +179,11 @@ Result<std::vector<ReportPicture>> volume_pictures(const Input& input, std::span
                             return svg + "</g>" + legend_svg(volumes);
                           }};
   if (auto ok = add_pictures(mesh, drawn_box(volumes), whole, out); !ok) return std::unexpected(ok.error());
-  if (sets.size() < 3) return out;
   std::vector<const FittedVolume*> chosen;
   for (const SetFit& set : sets) {
-    const bool fine = set.part != VolumePart::whole && set.part != VolumePart::trunk &&
-                      set.part != VolumePart::leaves && set.part != VolumePart::node;
-    if (fine && set.motion == VolumeMotion::rest) chosen.push_back(&set.volumes[set.chosen]);
+    if (is_fine_part(set.part, set.index, set.motion)) chosen.push_back(&set.volumes[set.chosen]);
   }
-  if (chosen.empty()) return out;
+  if (chosen.size() < 2) return out;
   // Thousands of outlines must not paint the mesh over, nor it them.
   const bool many = chosen.size() > 100;
   const MeshPicture parts{"Volumes of the parts", "The outline of what was chosen for each part.",

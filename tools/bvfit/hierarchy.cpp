@@ -25,10 +25,14 @@ std::vector<std::uint32_t> original_groups(std::span<const PartSet> parts,
 
 }  // namespace
 
+bool is_fine_part(VolumePart part, std::uint32_t index, VolumeMotion motion) {
+  const bool coarse = part == VolumePart::trunk || part == VolumePart::leaves || part == VolumePart::node ||
+                      (part == VolumePart::whole && index == k_none);
+  return !coarse && motion == VolumeMotion::rest;
+}
+
 bool is_hierarchy_item(const PartSet& part) {
-  const bool coarse = part.part == VolumePart::trunk || part.part == VolumePart::leaves ||
-                      (part.part == VolumePart::whole && part.index == k_none);
-  return !coarse && part.motion == VolumeMotion::rest;
+  return is_fine_part(part.part, part.index, part.motion);
 }
 
 Result<void> check_hierarchy(const std::string& kind, std::span<const PartSet> parts, const Input& input) {

@@ -16,7 +16,10 @@ namespace copse::bvfit {
 inline constexpr std::array<const char*, 11> k_hierarchies{
     "kd2", "kd3", "kd4", "kd8", "kd16", "rtree2", "rtree4", "rtree8", "clusters", "original", "flat"};
 
-// Whether a hierarchy stands on this part: at rest, and none of the coarse ones.
+// Whether it is at rest and none of the coarse ones; the parts of a scene are numbered wholes.
+bool is_fine_part(VolumePart part, std::uint32_t index, VolumeMotion motion);
+
+// Whether a hierarchy stands on this part.
 bool is_hierarchy_item(const PartSet& part);
 
 struct Hierarchy {

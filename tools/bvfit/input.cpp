@@ -239,12 +239,18 @@ Result<void> add_cells(const Input& input, Sets& sets) {
   return add_all(input, VolumePart::cell, sets);
 }
 
-// A scene of many meshes: every object, and every file where objects have no names.
+// A scene of many meshes: every object, and every file where objects have no names, in the order of the
+// files.
 Result<void> add_parts(const Input& input, Sets& sets) {
   if (input.mesh.triangles.empty()) return refuse(input.name, "points have no parts", "name a mesh");
-  std::map<std::pair<std::uint32_t, std::string>, std::vector<std::uint32_t>> members;
+  using Key = std::pair<std::uint32_t, std::string>;  // file and object
+  std::map<Key, std::size_t> place_of;
+  std::vector<std::pair<Key, std::vector<std::uint32_t>>> members;
   for (std::uint32_t t = 0; t < input.mesh.triangles.size(); ++t) {
-    members[{input.file_of[t], input.mesh.parts[input.mesh.part_of[t]].object}].push_back(t);
+    Key key{input.file_of[t], input.mesh.parts[input.mesh.part_of[t]].object};
+    const auto [at, is_new] = place_of.try_emplace(key, members.size());
+    if (is_new) members.push_back({std::move(key), {}});
+    members[at->second].second.push_back(t);
   }
   Gatherer gather(input);
   std::uint32_t index = 0;
