@@ -42,8 +42,9 @@ while read -r name arguments; do
   "$bin/treegrow" $arguments -o "$forest/$name.glb" -q
   "$bin/treeprep" "$forest/$name.glb" -o "$forest/$name.stree" -q
   "$bin/bvfit" "$forest/$name.stree" -o "$forest/$name.stree" --per whole --sway 4 -q
+  "$bin/lodbake" "$forest/$name.stree" -o "$forest/$name.stree" --discrete 0.3,0.08 --impostor 64 --quality fast -q
 done <samples/forest/trees.txt
-step treegrow "$forest/*.glb; treeprep, bvfit: $forest/*.stree"
+step treegrow "$forest/*.glb; treeprep, bvfit, lodbake: $forest/*.stree"
 python3 samples/forest/maps.py "$forest"
 cp samples/forest/forest.json "$forest/forest.json"
 step maps "$forest/*.png"
