@@ -256,6 +256,7 @@ TEST_F(Ecogen, TablesMayBeginWithAMarkAndNameAColumnOnce) {
 
 TEST_F(Ecogen, OptionsThatMeanNothingTogetherAreRefused) {
   EXPECT_EQ(run_process({"ecogen", "--new", "--schema"}).status, 2);
+  EXPECT_EQ(run({"--lowest-sun", "30"}).status, 2) << "without a path";
   ASSERT_EQ(run().status, 0);
   const Outcome o = run_process({"treedump", file("out.eco"), file("out.eco"), "--diff", "--tolerance", "1"});
   EXPECT_EQ(o.status, 2);

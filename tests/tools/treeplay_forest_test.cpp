@@ -176,6 +176,26 @@ TEST_F(TreeplayForest, WhatIsBeyondItsViewRangeCastsNoShadow) {
   EXPECT_LT(unseen, seen);
 }
 
+TEST_F(TreeplayForest, ASunThatStandsLowerThanTheFileWasMadeForIsWarnedOf) {
+  write_text(
+      file("path.json"),
+      R"({"schema":"copse.path/1","keys":[{"time":0,"eye":[20,5,60],"target":[20,2,20]},{"time":1,"eye":[20,5,60],"target":[20,2,21]}]})");
+  ASSERT_EQ(run_process({"ecogen", file("page.json"), "-o", file("f.eco"), "--camera-path", file("path.json"),
+                         "--lowest-sun", "40"})
+                .status,
+            0);
+  const std::string warning = "degrees high, and trees whose shadows";
+  const auto told = [&](Strings more) {
+    more.insert(more.end(), {"--camera", "20,5,60,20,2,20,40"});
+    const Outcome o = play(more);
+    EXPECT_EQ(o.status, 0) << o.err;
+    return o.err.find(warning) != std::string::npos;
+  };
+  EXPECT_TRUE(told({"--sun", "90,30"}));
+  EXPECT_FALSE(told({"--sun", "90,40"}));
+  EXPECT_FALSE(told({"--sun", "90,30", "--unlit"}));
+}
+
 // What the sky's light takes of a tree does not depend on what else is in the file.
 TEST_F(TreeplayForest, TheSkysLightIsThatOfTheTreesInAnyOrder) {
   std::vector<Image> pictures;

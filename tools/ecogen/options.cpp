@@ -48,14 +48,17 @@ void add_options(CLI::App& app, Options& o) {
       "of a .glb: a node an instance, for programs that do not know the extension (Blender before 3.6); "
       "at most 200000");
   CLI::Option_group* frames = app.add_option_group("Leaving out what no frame shows");
-  frames->add_option("--camera-path", o.camera_path, "keys of a camera's path, as treeplay --path takes them")
-      ->type_name("FILE.json");
+  CLI::Option* path = frames
+                          ->add_option("--camera-path", o.camera_path,
+                                       "keys of a camera's path, as treeplay --path takes them")
+                          ->type_name("FILE.json");
   frames
       ->add_option("--lowest-sun", o.lowest_sun,
                    "degrees above the horizon: with --camera-path trees stay whose shadows may fall into a "
                    "frame while the sun stands at least so high; 90: none for that reason")
       ->check(number_between(1, 90))
       ->type_name("DEGREES")
+      ->needs(path)
       ->capture_default_str();
   frames
       ->add_option("--view-range", o.view_range,

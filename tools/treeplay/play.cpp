@@ -9,11 +9,14 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <string_view>
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace copse::treeplay {
 
@@ -189,6 +192,21 @@ Result<void> check_culling(const Scene& scene, const Options& options) {
               "make it with \"block_trees\": [\"kd\", \"r\"] in its page, or cull by its box hierarchy");
 }
 
+// Trees outside every frame may have been left out whose shadows a lower sun would throw into one.
+void warn_of_low_sun(const Scene& scene, const Plan& plan, Context& context) {
+  if (!scene.eco || !plan.look.lit) return;
+  const auto told = nlohmann::json::parse(scene.eco->provenance, nullptr, false);
+  const auto lowest = nlohmann::json::json_pointer("/options/lowest-sun");
+  if (told.is_discarded() || !told.contains(lowest) || !told[lowest].is_number()) return;
+  const double wanted = told[lowest].get<double>();
+  const double height = std::asin(std::clamp(plan.settings.sun.y, -1.0, 1.0)) * 180 / std::numbers::pi;
+  if (height >= wanted - 1e-6) return;
+  context.warn(
+      fmt::format("{}: the sun stands {:.4g} degrees high, and trees whose shadows fall into a frame "
+                  "were kept for {:g} only; make it with --lowest-sun {:.0f}, or raise --sun",
+                  scene.name, height, wanted, std::max(1.0, std::floor(height))));
+}
+
 Result<void> raise_camera(const Scene& scene, const Options& options, Plan& plan) {
   if (!plan.above_ground) return {};
   for (Double3* point : {&plan.camera->eye, &plan.camera->target}) {
@@ -231,6 +249,7 @@ Result<void> run(const Options& options, Context& context) {
   }
   if (auto culls = check_culling(*scene, options); !culls) return culls;
   if (auto raised = raise_camera(*scene, options, *plan); !raised) return raised;
+  warn_of_low_sun(*scene, *plan, context);
   const double aspect = static_cast<double>(plan->width) / plan->height;
   const auto path = make_path(options, plan->camera.value_or(framing(*scene, aspect)));
   if (!path) return std::unexpected(path.error());
