@@ -39,6 +39,9 @@ struct CurvePoint {
 struct Curve {
   std::string name, x, y;
   std::vector<CurvePoint> points;
+  // Labelled points are trials of something that is to be small: a line joins those that nothing further left
+  // is below, and only they are labelled.
+  bool trials = false;
 };
 
 // A picture for the page: an SVG fragment (<svg ...>...</svg>) with a caption.

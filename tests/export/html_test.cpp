@@ -176,6 +176,18 @@ TEST(Chart, DrawsLinesAndLabelledPointsDifferently) {
   EXPECT_NE(scatter.find(">sphere</text>"), std::string::npos);
 }
 
+TEST(Chart, JoinsTheBestSoFarOfTrialsAndLabelsNoOther) {
+  const std::vector<Curve> curves{
+      {"obb", "s", "excess", {{"slow", 3, 1}, {"bad", 2, 9}, {"quick", 1, 5}}, true}};
+  const std::string svg = chart_svg(curves, "c");
+  const std::size_t at = svg.find("class='line' d='M");
+  ASSERT_NE(at, std::string::npos) << svg;
+  const std::string path = svg.substr(at, svg.find('>', at) - at);
+  EXPECT_EQ(std::count(path.begin(), path.end(), 'L'), 1) << path;
+  EXPECT_NE(svg.find(">quick</text>"), std::string::npos);
+  EXPECT_EQ(svg.find(">bad</text>"), std::string::npos);
+}
+
 TEST(Chart, StaysInsideItsFrameForAnyRange) {
   const double huge = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
   const std::vector<std::vector<CurvePoint>> cases{{{"", 0, 0}},

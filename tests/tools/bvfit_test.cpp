@@ -315,7 +315,7 @@ TEST_F(Bvfit, ThePageShowsPicturesAndTheSweepItsCurves) {
   EXPECT_NE(o.out.find("error against time"), std::string::npos);
   const std::string html = read_text(page);
   EXPECT_NE(html.find("Volumes round whole, from the side"), std::string::npos);
-  EXPECT_NE(html.find("volume / best - 1"), std::string::npos);
+  EXPECT_NE(html.find("volume / proven bound - 1"), std::string::npos);
   const json j = json::parse(read_text(report));
   EXPECT_GT(j["curves"].size(), 3u);
   EXPECT_GT(j["curves"][2]["points"].size(), 2u);

@@ -160,7 +160,8 @@ void draw_axes(std::string& out, const Axis& x, const Axis& y, const Curve& name
 }
 
 // Labels go right of their points, else left, above, below; where nothing is free the tooltip must do.
-void draw_labels(std::string& out, const std::vector<std::vector<Placed>>& series) {
+void draw_labels(std::string& out, const std::vector<std::vector<Placed>>& series,
+                 const std::vector<std::vector<Placed>>& labelled) {
   std::vector<Box> taken;
   for (const auto& points : series) {
     for (const Placed& p : points) taken.push_back({p.x - 5, p.y - 5, p.x + 5, p.y + 5});
@@ -169,7 +170,7 @@ void draw_labels(std::string& out, const std::vector<std::vector<Placed>>& serie
       {{9, 4, 0}, {-9, 4, 1}, {0, -9, 0.5}, {0, 17, 0.5}}};
   constexpr std::array<const char*, 3> k_anchors{"start", "middle", "end"};
   out += "<g class='labels'>";
-  for (const auto& points : series) {
+  for (const auto& points : labelled) {
     for (const Placed& p : points) {
       if (p.point->label.empty()) continue;
       const double length = k_glyph * static_cast<double>(p.point->label.size());
@@ -196,6 +197,18 @@ bool is_line(const Curve& curve) {
                                                 [](const CurvePoint& p) { return p.label.empty(); });
 }
 
+// Of trials those that nothing further left is below, from left to right.
+std::vector<Placed> best_so_far(std::vector<Placed> points) {
+  std::stable_sort(points.begin(), points.end(), [](const Placed& a, const Placed& b) {
+    return a.point->x != b.point->x ? a.point->x < b.point->x : a.point->y < b.point->y;
+  });
+  std::vector<Placed> best;
+  for (const Placed& p : points) {
+    if (best.empty() || p.point->y < best.back().point->y) best.push_back(p);
+  }
+  return best;
+}
+
 // Marks on a dense line would hide it.
 bool has_marks(const Curve& curve) {
   return !is_line(curve) || curve.points.size() <= 60;
@@ -203,9 +216,10 @@ bool has_marks(const Curve& curve) {
 
 void draw_series(std::string& out, std::size_t index, const Curve& curve, const std::vector<Placed>& points) {
   out += fmt::format("<g class='series c{}'>", index % k_colours);
-  if (is_line(curve)) {
+  if (is_line(curve) || curve.trials) {
     std::string path;
-    for (const Placed& p : points) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", p.x, p.y);
+    for (const Placed& p : curve.trials ? best_so_far(points) : points)
+      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", p.x, p.y);
     out += fmt::format("<path class='line' d='{}'/>", path);
   }
   for (const Placed& p : points) {
@@ -244,13 +258,17 @@ std::string chart_svg(std::span<const Curve> curves, const std::string& id) {
   std::vector<std::vector<Placed>> series;
   for (const Curve& curve : curves) series.push_back(place(curve, x, y));
   for (std::size_t i = 0; i < series.size(); ++i) draw_series(out, i, curves[i], series[i]);
-  draw_labels(out, series);
+  std::vector<std::vector<Placed>> labelled;
+  for (std::size_t i = 0; i < series.size(); ++i)
+    labelled.push_back(curves[i].trials ? best_so_far(series[i]) : series[i]);
+  draw_labels(out, series, labelled);
   return out + "</svg>";
 }
 
 std::string legend_svg(const Curve& curve, std::size_t index) {
   return fmt::format("<svg viewBox='0 0 26 14' aria-hidden='true'><g class='series c{}'>{}{}</g></svg>",
-                     index % k_colours, is_line(curve) ? "<path class='line' d='M1 7H25'/>" : "",
+                     index % k_colours,
+                     is_line(curve) || curve.trials ? "<path class='line' d='M1 7H25'/>" : "",
                      has_marks(curve) ? marker(index, 13, 7) : "");
 }
 
