@@ -1,6 +1,7 @@
 #include "lib/formats/check_ecosystem.h"
 
 #include "lib/formats/ecosystem_file.h"
+#include "lib/formats/hash.h"
 #include "lib/formats/instance_bounds.h"
 #include "lib/formats/instance_codec.h"
 #include "lib/formats/scan.h"
@@ -128,6 +129,12 @@ void check_exact(const Ecosystem& eco, Findings& findings) {
   }
 }
 
+void check_hashes(const Ecosystem& eco, Findings& findings) {
+  for (std::size_t i = 0; i < eco.block_hashes.size(); ++i)
+    if (hash_of_block(eco, eco.blocks[i]) != eco.block_hashes[i])
+      findings.add("EHSH", i, "the hash is not that of the block's instances");
+}
+
 void check_nodes(const Ecosystem& eco, Findings& findings) {
   for (std::size_t i = 0; i < eco.boxes.size(); ++i) {
     const QuadNode& n = eco.boxes[i];
@@ -201,10 +208,21 @@ void check_ecosystem_elements(const Ecosystem& eco, Findings& findings) {
   check_ecosystem_frame(eco, findings);
   check_packed(eco, findings);
   check_exact(eco, findings);
+  if (findings.empty()) check_hashes(eco, findings);  // then blocks are where they are said to be
 }
 
-bool is_sound_block(const Ecosystem& eco, const InstanceBlock& block) {
+std::uint64_t hash_of_block(const Ecosystem& eco, const InstanceBlock& block) {
+  const bool exact = !eco.exact.empty();
+  const std::size_t stride = exact ? sizeof(ExactInstance) : sizeof(PackedInstance);
+  const auto* bytes = exact ? reinterpret_cast<const std::uint8_t*>(eco.exact.data())
+                            : reinterpret_cast<const std::uint8_t*>(eco.packed.data());
+  return xxh3(std::span(bytes + block.first * stride, block.count * stride));
+}
+
+bool is_sound_block(const Ecosystem& eco, std::uint32_t index) {
+  const InstanceBlock& block = eco.blocks[index];
   const auto materials = static_cast<std::uint32_t>(eco.materials.size());
+  if (!eco.block_hashes.empty() && hash_of_block(eco, block) != eco.block_hashes[index]) return false;
   return eco.exact.empty() ? all_sound(eco.packed.span().subspan(block.first, block.count), materials)
                            : all_sound(eco.exact.span().subspan(block.first, block.count), materials);
 }

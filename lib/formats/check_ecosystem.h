@@ -13,8 +13,12 @@ void check_ecosystem_elements(const Ecosystem& eco, Findings& findings);
 // The same without a look at any instance: after this every block is a range of instances that are there.
 void check_ecosystem_frame(const Ecosystem& eco, Findings& findings);
 
-// Whether the instances of one block can be used. Precondition: check_ecosystem_frame found nothing.
-bool is_sound_block(const Ecosystem& eco, const InstanceBlock& block);
+// Of the bytes of its instances as they are stored. Precondition: they are there.
+std::uint64_t hash_of_block(const Ecosystem& eco, const InstanceBlock& block);
+
+// Whether the instances of one block can be used and, where the file has their hash, are those that were
+// written. Precondition: check_ecosystem_frame found nothing.
+bool is_sound_block(const Ecosystem& eco, std::uint32_t index);
 
 // That boxes contain what they must, and that blocks lie in the leaf of the hierarchy that owns them: costs a
 // transformed box an instance. Precondition: check_ecosystem_elements found nothing.

@@ -151,10 +151,11 @@ struct Ecosystem {
   std::array<double, 4> area{};  // that the box hierarchy divides: x0, z0, x1, z1
   std::uint32_t depth = 0;       // of the box hierarchy
   Array<InstanceBlock> blocks;
-  Array<PackedInstance> packed;     // either these ...
-  Array<ExactInstance> exact;       // ... or these
-  Array<QuadNode> boxes;            // first_quad_node(depth + 1) nodes; empty when there are no blocks
-  Array<BlockNode> kd_tree, rtree;  // over the blocks that have a box; each may be empty
+  Array<std::uint64_t> block_hashes;  // XXH3-64 of the stored instances of each block; empty: not known
+  Array<PackedInstance> packed;       // either these ...
+  Array<ExactInstance> exact;         // ... or these
+  Array<QuadNode> boxes;              // first_quad_node(depth + 1) nodes; empty when there are no blocks
+  Array<BlockNode> kd_tree, rtree;    // over the blocks that have a box; each may be empty
   // How far what is stored may lie from what was meant: at most.
   float position_error = 0;  // m
   float rotation_error = 0;  // radians

@@ -47,7 +47,7 @@ Result<void> EcosystemFile::Impl::check_section(std::string_view name, std::uint
                                                 std::size_t stride) const {
   const SectionInfo* section = file.find(name);
   if (!section) {
-    if (count == 0) return {};
+    if (count == 0 || may_be_missing(name)) return {};
     return missing(name);
   }
   if (section->version != section_version(name))

@@ -14,6 +14,11 @@ inline std::uint32_t section_version(std::string_view name) {
   return name == "EINS" ? 2 : 1;
 }
 
+// Files from before it have none.
+inline bool may_be_missing(std::string_view name) {
+  return name == "EHSH";
+}
+
 // Calls visit(name, array, count): `counts` and the head of `eco` give the counts that a file must have.
 template <class EcosystemRef, class Visit>
 void for_each_array(EcosystemRef& eco, const EcosystemCounts& counts, Visit&& visit) {
@@ -24,6 +29,7 @@ void for_each_array(EcosystemRef& eco, const EcosystemCounts& counts, Visit&& vi
   visit("EKDT", eco.kd_tree, std::uint64_t{counts.kd_nodes});
   visit("ERTR", eco.rtree, std::uint64_t{counts.rtree_nodes});
   visit("EBLK", eco.blocks, std::uint64_t{counts.blocks});
+  visit("EHSH", eco.block_hashes, std::uint64_t{counts.blocks});
   visit("EINS", eco.packed, std::uint64_t{counts.exact ? 0 : counts.instances});
   visit("EINX", eco.exact, std::uint64_t{counts.exact ? counts.instances : 0});
 }

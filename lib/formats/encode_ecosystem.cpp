@@ -22,6 +22,7 @@ std::string misfit(const Ecosystem& eco) {
   if (!eco.packed.empty() && !eco.exact.empty()) return "instances of both kinds";
   if (eco.boxes.size() != (eco.blocks.empty() ? 0 : first_quad_node(eco.depth + 1)))
     return "the box hierarchy";
+  if (!eco.block_hashes.empty() && eco.block_hashes.size() != eco.blocks.size()) return "hashes of blocks";
   if (eco.types.size() > k_max_tree_types) return "more types than a file may have";
   for (const TreeType& type : eco.types)
     if (type.uri.empty() == type.packed.empty()) return "a type is neither packed nor by reference, or both";

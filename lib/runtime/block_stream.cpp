@@ -100,9 +100,9 @@ std::span<const StreamedInstance> BlockStream::block(std::uint32_t index) {
   if (!read_[index]) {
     count(block);
     read_[index] = true;
-    if (!is_sound_block(eco_, block)) damaged_ = std::min(damaged_, index);
+    if (!is_sound_block(eco_, index)) damaged_ = std::min(damaged_, index);
   }
-  if (damaged_ == index || (damaged_ != k_none && !is_sound_block(eco_, block))) return {};
+  if (damaged_ == index || (damaged_ != k_none && !is_sound_block(eco_, index))) return {};
   kept.instances.reserve(block.count);
   for (std::size_t i = block.first; i < std::size_t{block.first} + block.count; ++i)
     kept.instances.push_back(ready(block, i));

@@ -15,9 +15,10 @@ namespace copse {
 // What is unsound about what a reader was given to use without a further check; "" when nothing is.
 // `checked`: its instances are, too; otherwise those of blocks that pass their own check are used.
 inline std::string use_everything(const Ecosystem& eco, bool checked) {
-  for (const InstanceBlock& b : eco.blocks) {
-    if (checked && !is_sound_block(eco, b)) return "a block is damaged that was checked";
-    if (!is_sound_block(eco, b)) continue;
+  for (std::uint32_t index = 0; index < eco.blocks.size(); ++index) {
+    const InstanceBlock& b = eco.blocks[index];
+    if (checked && !is_sound_block(eco, index)) return "a block is damaged that was checked";
+    if (!is_sound_block(eco, index)) continue;
     for (std::size_t k = b.first; k < b.first + b.count; ++k) {
       const Instance i = instance_of(eco, b, k);
       double square = 0;

@@ -246,6 +246,22 @@ TEST_F(TreeplayLargeForest, DamagedInstancesAreRefusedWhenTheyAreSeen) {
   EXPECT_FALSE(std::filesystem::exists(file("f.png")));
 }
 
+// A bit that leaves a sound instance elsewhere, and a checksum of the section that is not looked at.
+TEST_F(TreeplayLargeForest, InstancesThatAreNotThoseThatWereWrittenAreRefusedWhenTheyAreSeen) {
+  std::string bytes = read_text(file("f.eco"));
+  const auto file_of = EcosystemFile::open(file("f.eco"));
+  const SectionInfo* section = file_of->container().find("EINS");
+  for (std::size_t i = section->offset; i < section->offset + section->stored_size; i += 24)
+    bytes[i] = static_cast<char>(bytes[i] ^ 0x10);
+  write_text(file("f.eco"), bytes);
+  const Outcome o = play(with({"--unlit"}));
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.err.find("its instances are damaged"), std::string::npos) << o.err;
+  const Outcome v = run_process({"treedump", file("f.eco"), "--verify"});
+  EXPECT_EQ(v.status, 1);
+  EXPECT_NE((v.out + v.err).find("EHSH"), std::string::npos) << v.out;
+}
+
 TEST_F(TreeplayLargeForest, CompressedInstancesAreDrawnAsWell) {
   ASSERT_EQ(play(with({"--unlit"})).status, 0);
   const std::string picture = read_text(file("f.png"));

@@ -6,6 +6,7 @@
 #include "lib/analysis/ecosystem/populate.h"
 #include "lib/analysis/ecosystem/spread.h"
 #include "lib/analysis/ecosystem/tilt.h"
+#include "lib/formats/check_ecosystem.h"
 #include "tools/ecogen/frames.h"
 #include "tools/ecogen/inputs.h"
 #include "tools/ecogen/leave_out.h"
@@ -343,6 +344,9 @@ class Builder {
     const auto order = arrange(population.instances, options, built_.eco);
     if (!order) return std::unexpected(order.error());
     Ecosystem& e = built_.eco;
+    std::vector<std::uint64_t> hashes;
+    for (const InstanceBlock& b : e.blocks) hashes.push_back(hash_of_block(e, b));
+    e.block_hashes = std::move(hashes);
     if (scene_.kd_tree) e.kd_tree = block_kd_tree(e);
     if (scene_.rtree) e.rtree = block_rtree(e);
     auto& errors = context_.report().errors;

@@ -191,10 +191,10 @@ Result<ForestFrame> ForestPlanner::plan(const View& view, const ForestWish& wish
   see(view, wish, frame, counts);
   cast(view, wish, frame, counts);
   if (stream_.damaged() == k_none) return frame;
-  return refuse(scene_.name,
-                fmt::format("block {}: rotation, material or unused bits of an instance are out of range",
-                            stream_.damaged()),
-                "restore the file, or make it again");
+  return refuse(
+      scene_.name,
+      fmt::format("block {}: its instances are damaged (treedump --verify tells more)", stream_.damaged()),
+      "restore the file, or make it again");
 }
 
 }  // namespace copse::treeplay
