@@ -41,6 +41,7 @@ TrunkMesh prism(bool middles) {
       for (std::uint32_t i = 1; i < 7; ++i) mesh.triangles.push_back({first, first + i, first + i + 1});
     }
   }
+  mesh.piece.assign(mesh.triangles.size(), 0), mesh.source.clear();  // of the ends too
   return mesh;
 }
 
