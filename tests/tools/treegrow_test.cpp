@@ -179,8 +179,7 @@ TEST(Treegrow, EverySampleGrows) {
 TEST(Treegrow, TruthsPassTheScorersSelfTest) {
   const std::string scorer = COPSE_SOURCE_DIR "/../shared/tools/evaluate_hierarchy.py";
   if (!std::filesystem::exists(scorer)) {
-    std::cout << "skipped: " << scorer << " is not here\n";
-    GTEST_SKIP();
+    GTEST_SKIP() << scorer << " is not there: the scorer is no part of the repository";
   }
   const TemporaryFolder folder;
   std::vector<std::string> command{"/usr/bin/python3", scorer, "--selftest"};

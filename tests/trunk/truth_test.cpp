@@ -50,8 +50,7 @@ TEST_P(SharedTrees, AreRecoveredExactly) {
   const std::string base = file.substr(0, file.find('.'));
   const auto truth = read_truth(k_trees / "truth" / (base + ".json.gz"));
   if (!truth) {
-    std::cout << "skipped: " << k_trees << " is not there\n";
-    GTEST_SKIP();
+    GTEST_SKIP() << k_trees << " is not there: the meshes are no part of the repository";
   }
   const auto import = import_mesh(k_trees / file);
   ASSERT_TRUE(import.has_value());

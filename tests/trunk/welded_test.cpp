@@ -56,7 +56,8 @@ double explained(const Hierarchy& h) {
 
 TEST(Welded, TreeOfProctreeIsExact) {
   const TrunkMesh mesh = real_trunk("pt_fork_small.obj", "trunk");
-  if (mesh.triangles.empty()) GTEST_SKIP();
+  if (mesh.triangles.empty())
+    GTEST_SKIP() << k_trees << " is not there: the meshes are no part of the repository";
   const auto truth = read_truth(k_trees / "truth" / "pt_fork_small.json.gz");
   ASSERT_TRUE(truth);
   const Hierarchy h = recover_welded(mesh, all_triangles(mesh));
@@ -70,7 +71,8 @@ TEST(Welded, TreeOfProctreeIsExact) {
 // come out of its cage to a hundred thousandth of its height, but for the forks whose every ring was moved.
 TEST(Welded, SkinOfAnOakHasTheAxesOfItsCage) {
   const TrunkMesh mesh = real_trunk("dv_oak_skin.obj.gz", "wood");
-  if (mesh.triangles.empty()) GTEST_SKIP();
+  if (mesh.triangles.empty())
+    GTEST_SKIP() << k_trees << " is not there: the meshes are no part of the repository";
   const auto truth = read_truth(k_trees / "truth" / "dv_oak_skin.json.gz");
   ASSERT_TRUE(truth);
   const Hierarchy h = recover_welded(mesh, all_triangles(mesh));
@@ -96,7 +98,8 @@ TEST(Welded, TrunksWithoutRingsAreExplained) {
                             RealCase{"kenney_tree_oak_fall.obj", "woodBirch", 0.04},
                             RealCase{"kenney_tree_detailed_fall.obj", "woodBirch", 0.02}}) {
     const TrunkMesh mesh = real_trunk(c.file, c.name);
-    if (mesh.triangles.empty()) GTEST_SKIP();
+    if (mesh.triangles.empty())
+      GTEST_SKIP() << k_trees << " is not there: the meshes are no part of the repository";
     const auto triangles = largest_component(mesh);
     const Hierarchy h = recover_welded(mesh, triangles);
     EXPECT_EQ(breach(h, mesh.positions.size(), triangles.size()), "") << c.file;

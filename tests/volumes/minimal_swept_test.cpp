@@ -38,7 +38,7 @@ using Types = testing::Types<OfCapsules, OfLozenges>;
 TYPED_TEST_SUITE(MinimalSwept, Types);
 
 TYPED_TEST(MinimalSwept, OfReferenceModelsIsTheBestKnownAndProvenTo2Percent) {
-  if (reference_folder().empty()) GTEST_SKIP() << "the meshes are in Debian's libcgal-demo, not installed";
+  ASSERT_FALSE(reference_folder().empty()) << "no reference models: ./run installs libcgal-demo";
   for (const ReferenceModel& model : reference_models()) {
     const std::vector<Double3> points = reference_points(model.name);
     if (points.size() > 3000) continue;  // the quick ones
