@@ -35,7 +35,7 @@ def card(out, name):
 <p>{e.found} of {e.rings} rings found, {e.parents_right} of {e.rings} parents right; worst centre {e.worst_centre:.1e} of the height,
 worst diameter {e.worst_diameter:.1e}; {e.leaves} of {e.true_leaves} leaves. {size / 1e6:.2f} MB.</p>
 <table>{stages}</table>
-<p><a href="{name}.prep.html">treeprep's report</a> · <a href="{name}.volumes.html">volumes</a> · <a href="{name}.txt">treedump</a> · <a href="{name}.glb">mesh</a> · <a href="{name}.stree">tree</a></p>
+<p><a href="{name}.prep.html">treeprep's report</a> · <a href="{name}.volumes.html">volumes</a> · <a href="{name}.lod.html">levels of detail</a> · <a href="{name}.txt">treedump</a> · <a href="{name}.glb">mesh</a> · <a href="{name}.stree">tree</a></p>
 </article>"""
 
 
