@@ -52,12 +52,7 @@ TEST(FlowSkeleton, OfWhatEnclosesNothingIsEmpty) {
 TEST(FlowSkeleton, OfAnythingIsSoundOrEmpty) {
   for (std::uint32_t seed = 0; seed < 12; ++seed) {
     const TrunkMesh soup = random_soup(9, 20, seed);
-    const Components parts = connected_components(soup.triangles);
-    std::vector<std::uint32_t> first;
-    for (std::uint32_t t = 0; t < parts.of.size(); ++t) {
-      if (parts.of[t] == 0) first.push_back(t);
-    }
-    const Surface s = make_surface(soup, first);
+    const Surface s = make_surface(soup, first_component(soup));
     const CurveSkeleton k = flow_skeleton(s);
     if (!k.points.empty()) expect_sound(s, k);
   }

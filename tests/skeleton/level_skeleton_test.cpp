@@ -67,12 +67,7 @@ TEST(LevelSkeleton, OfATorusIsACycle) {
 TEST(LevelSkeleton, OfAnythingIsConnectedAndFinite) {
   for (std::uint32_t seed = 0; seed < 60; ++seed) {
     TrunkMesh soup = random_soup(10, 30, seed);
-    const Components parts = connected_components(soup.triangles);
-    std::vector<std::uint32_t> first;
-    for (std::uint32_t t = 0; t < parts.of.size(); ++t) {
-      if (parts.of[t] == 0) first.push_back(t);
-    }
-    const Surface s = make_surface(soup, first);
+    const Surface s = make_surface(soup, first_component(soup));
     const CurveSkeleton k = skeleton_of(s);
     expect_connected(k);
     for (const Double3& p : k.points) EXPECT_TRUE(is_finite(p));

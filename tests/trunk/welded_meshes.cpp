@@ -1,5 +1,7 @@
 #include "tests/trunk/welded_meshes.h"
 
+#include "lib/analysis/surface/components.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -349,6 +351,15 @@ TrunkMesh random_soup(std::uint32_t vertices, std::uint32_t triangles, std::uint
     if (x != y && y != z && x != z) b.triangle(x, y, z);
   }
   return std::move(b.out.mesh);
+}
+
+std::vector<std::uint32_t> first_component(const TrunkMesh& mesh) {
+  const Components parts = connected_components(mesh.triangles);
+  std::vector<std::uint32_t> first;
+  for (std::uint32_t t = 0; t < parts.of.size(); ++t) {
+    if (parts.of[t] == 0) first.push_back(t);
+  }
+  return first;
 }
 
 TrunkMesh shuffled(const TrunkMesh& mesh, std::uint32_t seed) {

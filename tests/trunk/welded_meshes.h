@@ -58,6 +58,8 @@ TrunkMesh smooth_cells(std::span<const Cell> cells, int rounds);
 
 // Triangles between random vertices: everything that can be wrong with a mesh, at once.
 TrunkMesh random_soup(std::uint32_t vertices, std::uint32_t triangles, std::uint32_t seed);
+// The triangles of its first connected component.
+std::vector<std::uint32_t> first_component(const TrunkMesh& mesh);
 
 // The same surface with its triangles and vertices in another order and some triangles turned over.
 TrunkMesh shuffled(const TrunkMesh& mesh, std::uint32_t seed);

@@ -75,33 +75,40 @@ class ObjReader {
   bool read() { return read_vertices() && read_faces(); }
 
  private:
-  // First pass: all that faces may refer to, so that a face may come before its vertices.
-  bool read_vertices() {
-    std::uint64_t triangles = 0;
+  // visit(statement, the rest of its line, its end) for every line, until one is not good.
+  template <class Visit>
+  bool each_statement(Visit&& visit) {
     Lines lines(text_, true);
     for (std::string_view line; lines.next(line);) {
       const char* p = line.data();
       const char* end = p + line.size();
       place_.number = lines.number();
-      bool good = true;
-      switch (classify(p, end)) {
+      const Statement statement = classify(p, end);
+      if (!visit(statement, p, end)) return false;
+    }
+    return true;
+  }
+
+  // First pass: all that faces may refer to, so that a face may come before its vertices.
+  bool read_vertices() {
+    std::uint64_t triangles = 0;
+    const bool good = each_statement([&](Statement statement, const char* p, const char* end) {
+      switch (statement) {
         case Statement::position:
-          good = position(p, end);
-          break;
+          return position(p, end);
         case Statement::texcoord:
-          good = texcoord(p, end);
-          break;
+          return texcoord(p, end);
         case Statement::normal:
-          good = normal(p, end);
-          break;
+          return normal(p, end);
         case Statement::face:
           triangles += std::max<std::uint64_t>(count_words(p, end), 3) - 2;
           break;
         case Statement::other:
           break;
       }
-      if (!good) return false;
-    }
+      return true;
+    });
+    if (!good) return false;
     positions_.all = mesh_.positions.size();
     texcoords_.all = mesh_.texcoords.size();
     normals_.all = mesh_.normals.size();
@@ -114,13 +121,8 @@ class ObjReader {
 
   // Second pass: faces and what they belong to.
   bool read_faces() {
-    Lines lines(text_, true);
-    for (std::string_view line; lines.next(line);) {
-      const char* p = line.data();
-      const char* end = p + line.size();
-      place_.number = lines.number();
-      bool good = true;
-      switch (classify(p, end)) {
+    const bool good = each_statement([&](Statement statement, const char* p, const char* end) {
+      switch (statement) {
         case Statement::position:
           ++positions_.above;
           break;
@@ -131,14 +133,13 @@ class ObjReader {
           ++normals_.above;
           break;
         case Statement::face:
-          good = face(p, end);
-          break;
+          return face(p, end);
         case Statement::other:
-          good = other(p, end);
-          break;
+          return other(p, end);
       }
-      if (!good) return false;
-    }
+      return true;
+    });
+    if (!good) return false;
     if (!known_ && mesh_.positions.empty() && unknown_line_ != 0)
       return builder_.refuse_at({"line", unknown_line_}, unknown_ + " is not a statement of an OBJ file",
                                 "give the file the extension of its true format");
