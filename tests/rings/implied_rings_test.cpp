@@ -87,6 +87,28 @@ TEST(ImpliedRings, KeepsForksPointsAndBranches) {
   for (const double y : {0.0, 10.0, 19.0, 20.0, 29.0}) EXPECT_EQ(std::ranges::count(heights, y), 1) << y;
 }
 
+// A vine whose diameter falls by ever more orders of magnitude: the farthest ring is always beside the thick
+// end.
+TEST(ImpliedRings, AVineOfAHundredThousandRingsIsNotQuadratic) {
+  Hierarchy h = limb(100'000, 1, 0);
+  for (std::size_t r = 0; r < h.radii.size(); ++r) {
+    h.radii[r].centre = {0, static_cast<double>(r), 0};
+    h.radii[r].diameter = std::exp(-static_cast<double>(r) / 150);
+  }
+  const Hierarchy left = without_implied_rings(h);
+  EXPECT_GT(left.radii.size(), 500u);
+  EXPECT_LT(left.radii.size(), h.radii.size());
+  for (const RadiusNode& n : left.radii) {
+    if (n.parent == k_none) continue;
+    const RadiusNode& p = left.radii[n.parent];
+    for (double y = p.centre.y + 1; y < n.centre.y; ++y) {
+      const double at = (y - p.centre.y) / (n.centre.y - p.centre.y);
+      const double real = std::exp(-y / 150);
+      ASSERT_LE(std::abs(p.diameter + (n.diameter - p.diameter) * at - real), 0.0201 * real) << y;
+    }
+  }
+}
+
 TEST(ImpliedRings, TrianglesGoWithTheNextRadiusThatStays) {
   const Hierarchy h = limb(101, 1, 10);
   const Hierarchy left = without_implied_rings(h);

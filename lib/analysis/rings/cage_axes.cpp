@@ -1,6 +1,7 @@
 #include "lib/analysis/rings/cage_axes.h"
 
 #include "lib/analysis/rings/axis.h"
+#include "lib/analysis/rings/polyline_simplification.h"
 #include "lib/analysis/rings/ring_graph.h"
 #include "lib/analysis/surface/hull_relaxation.h"
 #include "lib/analysis/surface/quads.h"
@@ -419,43 +420,30 @@ class CageAxes {
       const std::uint32_t last = way.back();
       // Where every ring was moved, they are all there is.
       const auto is_told = [&](std::uint32_t i) { return !is_fixed(i) && stations_[i].is_whole; };
-      if (std::ranges::none_of(way, is_told)) {
-        keep_between(way, 0, way.size() - 1);
-        continue;
+      if (std::ranges::any_of(way, is_told)) {
+        std::erase_if(way, [&](std::uint32_t i) {
+          const Station& s = stations_[i];
+          return i != from && i != last && (s.is_dropped || (!s.is_whole && !s.is_kept));
+        });
       }
-      std::erase_if(way, [&](std::uint32_t i) {
-        const Station& s = stations_[i];
-        return i != from && i != last && (s.is_dropped || (!s.is_whole && !s.is_kept));
-      });
-      std::size_t begin = 0;
-      for (std::size_t i = 1; i < way.size(); ++i) {
-        if (i + 1 < way.size() && !stations_[way[i]].is_kept) continue;
-        keep_between(way, begin, i);
-        begin = i;
-      }
+      keep_needed(way);
     }
   }
 
-  void keep_between(const std::vector<std::uint32_t>& way, std::size_t from, std::size_t to) {
-    std::vector<std::pair<std::size_t, std::size_t>> todo{{from, to}};
-    while (!todo.empty()) {
-      const auto [a, b] = todo.back();
-      todo.pop_back();
-      const Station &first = stations_[way[a]], &last = stations_[way[b]];
-      std::size_t worst = 0;
-      double most = 1;
-      for (std::size_t i = a + 1; i < b; ++i) {
-        const Station& s = stations_[way[i]];
-        const double at = nearest_on_segment(first.centre, last.centre, s.centre);
-        const double off = distance(first.centre + (last.centre - first.centre) * at, s.centre) +
-                           std::abs(first.radius + (last.radius - first.radius) * at - s.radius);
-        const double need = off / (s.was_moved ? k_moved_tolerance * s.radius : 2 * noise(s.radius));
-        if (need > most) most = need, worst = i;
-      }
-      if (worst == 0) continue;
-      stations_[way[worst]].is_kept = true;
-      todo.emplace_back(a, worst), todo.emplace_back(worst, b);
+  // Of the stations along a way, what those that are kept do not imply.
+  void keep_needed(const std::vector<std::uint32_t>& way) {
+    std::vector<std::uint8_t> keep;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      keep.push_back(i == 0 || i + 1 == way.size() || stations_[way[i]].is_kept);
     }
+    simplify_polyline(keep, [&](std::size_t a, std::size_t b, std::size_t i) {
+      const Station &first = stations_[way[a]], &last = stations_[way[b]], &s = stations_[way[i]];
+      const double at = nearest_on_segment(first.centre, last.centre, s.centre);
+      const double off = distance(first.centre + (last.centre - first.centre) * at, s.centre) +
+                         std::abs(first.radius + (last.radius - first.radius) * at - s.radius);
+      return off / (s.was_moved ? k_moved_tolerance * s.radius : 2 * noise(s.radius));
+    });
+    for (std::size_t i = 1; i + 1 < way.size(); ++i) stations_[way[i]].is_kept = keep[i];
   }
 
   Hierarchy result() {

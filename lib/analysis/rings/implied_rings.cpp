@@ -1,6 +1,7 @@
 #include "lib/analysis/rings/implied_rings.h"
 
 #include "lib/analysis/rings/axis.h"
+#include "lib/analysis/rings/polyline_simplification.h"
 #include "lib/analysis/surface/welded_tolerances.h"
 
 #include <algorithm>
@@ -49,12 +50,10 @@ class Thinning {
       way_.push_back(way_.back() + distance(node(i).centre, node(i - 1).centre));
     }
     mark_corners();
-    std::size_t last = 0;
-    for (std::size_t i = 1; i < chain_.size(); ++i) {
-      if (!keep_[chain_[i]]) continue;
-      keep_needed(last, i);
-      last = i;
-    }
+    std::vector<std::uint8_t> stays;
+    for (const std::uint32_t r : chain_) stays.push_back(keep_[r]);
+    simplify_polyline(stays, [this](std::size_t a, std::size_t b, std::size_t i) { return need(a, b, i); });
+    for (std::size_t i = 0; i < chain_.size(); ++i) keep_[chain_[i]] = stays[i];
   }
 
   const RadiusNode& node(std::size_t i) const { return h_.radii[chain_[i]]; }
@@ -71,26 +70,13 @@ class Thinning {
     }
   }
 
-  // Keeps, between two that stay, what is farthest from the line between them, until all is near enough.
-  void keep_needed(std::size_t from, std::size_t to) {
-    std::vector<std::pair<std::size_t, std::size_t>> todo{{from, to}};
-    while (!todo.empty()) {
-      const auto [a, b] = todo.back();
-      todo.pop_back();
-      std::size_t worst = 0;
-      double most = 1;
-      for (std::size_t i = a + 1; i < b; ++i) {
-        const double at = way_[b] > way_[a] ? (way_[i] - way_[a]) / (way_[b] - way_[a]) : 0;
-        const Double3 centre = node(a).centre + (node(b).centre - node(a).centre) * at;
-        const double diameter = node(a).diameter + (node(b).diameter - node(a).diameter) * at;
-        const double off = distance(centre, node(i).centre) + std::abs(diameter - node(i).diameter) / 2;
-        const double need = off / (k_implied_tolerance * node(i).diameter / 2);
-        if (need > most) most = need, worst = i;
-      }
-      if (worst == 0) continue;
-      keep_[chain_[worst]] = 1;
-      todo.emplace_back(a, worst), todo.emplace_back(worst, b);
-    }
+  // Of the ring `i` in the chain, by how far it is off the line from `a` to `b`.
+  double need(std::size_t a, std::size_t b, std::size_t i) const {
+    const double at = way_[b] > way_[a] ? (way_[i] - way_[a]) / (way_[b] - way_[a]) : 0;
+    const Double3 centre = node(a).centre + (node(b).centre - node(a).centre) * at;
+    const double diameter = node(a).diameter + (node(b).diameter - node(a).diameter) * at;
+    const double off = distance(centre, node(i).centre) + std::abs(diameter - node(i).diameter) / 2;
+    return off / (k_implied_tolerance * node(i).diameter / 2);
   }
 
   Hierarchy what_is_left() {

@@ -1,6 +1,7 @@
 #include "lib/analysis/skeleton/limb_samples.h"
 
 #include "lib/analysis/rings/axis.h"
+#include "lib/analysis/rings/polyline_simplification.h"
 #include "lib/analysis/surface/welded_tolerances.h"
 
 #include <algorithm>
@@ -262,42 +263,26 @@ void bridge_gaps(std::span<LimbSample> samples, std::span<const LimbFork> forks)
 }
 
 std::vector<LimbSample> thin_out(const std::vector<LimbSample>& samples) {
-  std::vector<std::uint8_t> keep(samples.size(), 0);
-  std::vector<std::pair<std::size_t, std::size_t>> todo;
-  const double least_size = samples.back().way * k_least_size;
-  std::size_t last = 0;
+  std::vector<std::uint8_t> keep;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (i != 0 && i + 1 != samples.size() && !samples[i].fork) continue;
-    keep[i] = 1;
-    if (i > 0) todo.emplace_back(last, i);
-    last = i;
+    keep.push_back(i == 0 || i + 1 == samples.size() || samples[i].fork);
   }
-  while (!todo.empty()) {
-    const auto [a, b] = todo.back();
-    todo.pop_back();
-    std::size_t worst = 0;
-    double most = 1;
-    for (std::size_t i = a + 1; i < b; ++i) {
-      const RingCircle& c = samples[i].circle;
-      const Double3 &pa = samples[a].circle.centre, &pb = samples[b].circle.centre;
-      const double at = nearest_on_segment(pa, pb, c.centre);
-      const double radius =
-          samples[a].circle.radius + (samples[b].circle.radius - samples[a].circle.radius) * at;
-      const double off = distance(pa + (pb - pa) * at, c.centre) + std::abs(radius - c.radius);
-      const double gap = samples[b].way - samples[a].way;
-      const double wider = std::max(samples[a].circle.radius, samples[b].circle.radius);
-      const double size = std::max({c.radius, wider / 4, least_size});
-      // Of samples that are as far off, the middle one; so a limb that is too long for one segment is halved.
-      const double middle = 1 - std::abs(static_cast<double>(2 * i) - static_cast<double>(a + b)) /
-                                    static_cast<double>(2 * (b - a));
-      const double need =
-          size > 0 ? std::max(off / (k_sample_tolerance * size), gap / (k_sample_gap * size) * middle) : 0;
-      if (need > most) most = need, worst = i;
-    }
-    if (worst == 0) continue;
-    keep[worst] = 1;
-    todo.emplace_back(a, worst), todo.emplace_back(worst, b);
-  }
+  const double least_size = samples.back().way * k_least_size;
+  simplify_polyline(keep, [&](std::size_t a, std::size_t b, std::size_t i) {
+    const RingCircle& c = samples[i].circle;
+    const Double3 &pa = samples[a].circle.centre, &pb = samples[b].circle.centre;
+    const double at = nearest_on_segment(pa, pb, c.centre);
+    const double radius =
+        samples[a].circle.radius + (samples[b].circle.radius - samples[a].circle.radius) * at;
+    const double off = distance(pa + (pb - pa) * at, c.centre) + std::abs(radius - c.radius);
+    const double gap = samples[b].way - samples[a].way;
+    const double wider = std::max(samples[a].circle.radius, samples[b].circle.radius);
+    const double size = std::max({c.radius, wider / 4, least_size});
+    // Of samples that are as far off, the middle one; so a limb that is too long for one segment is halved.
+    const double middle = 1 - std::abs(static_cast<double>(2 * i) - static_cast<double>(a + b)) /
+                                  static_cast<double>(2 * (b - a));
+    return size > 0 ? std::max(off / (k_sample_tolerance * size), gap / (k_sample_gap * size) * middle) : 0;
+  });
   std::vector<LimbSample> kept;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (keep[i]) kept.push_back(samples[i]);
