@@ -382,10 +382,15 @@ static std::vector<Triangle> fill_polygon(std::span<const Double3> positions, st
 
 std::vector<BandGrowth::Side> BandGrowth::sides_of(std::uint32_t ring) const {
   const auto polygon = bands_.ring(ring);
+  const auto triangles = bands_.triangles_of(ring / 2);
   std::vector<Side> sides;
+  sides.reserve(polygon.size());
+  std::size_t at = 0;  // a band's triangles go round with its rings: the next side's is mostly the next
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const std::uint32_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    for (const std::uint32_t t : bands_.triangles_of(ring / 2)) {
+    for (std::size_t tried = 0; tried < triangles.size(); ++tried, ++at) {
+      if (at >= triangles.size()) at = 0;
+      const std::uint32_t t = triangles[at];
       if (!holds(triangles_[t], a, b)) continue;
       sides.push_back({a, b, t, across_[t][static_cast<std::size_t>(edge_between(triangles_[t], a, b))]});
       break;
@@ -454,10 +459,10 @@ void BandGrowth::fill(std::uint32_t ring) {
 
 // The rings of other bands that share sides with a ring that has something unread beyond other sides; none
 // where a border runs.
-std::vector<std::uint32_t> BandGrowth::limbs_beyond(std::uint32_t ring) const {
+std::vector<std::uint32_t> BandGrowth::limbs_beyond(std::span<const Side> sides) const {
   std::vector<std::uint32_t> limbs;
   bool is_open = false;
-  for (const Side& s : sides_of(ring)) {
+  for (const Side& s : sides) {
     if (s.outside == k_none) return {};
     is_open |= unread(s.outside);
     if (unread(s.outside) || s.outside >= bands_.band_of.size()) continue;
@@ -522,8 +527,7 @@ bool BandGrowth::close_strip(std::uint32_t ring, std::uint32_t band) {
 }
 
 // The same where the limb was cut into a band that begins at a border: the border runs along the limb's ring.
-bool BandGrowth::read_past_limb_at_border(std::uint32_t ring) {
-  const std::vector<Side> sides = sides_of(ring);
+bool BandGrowth::read_past_limb_at_border(std::uint32_t ring, std::span<const Side> sides) {
   std::vector<std::uint8_t> at_border;
   bool is_open = false;
   for (const Side& s : sides) {
@@ -547,8 +551,9 @@ bool BandGrowth::read_past_limb_at_border(std::uint32_t ring) {
 }
 
 bool BandGrowth::read_past_limbs(std::uint32_t ring, std::size_t most) {
-  if (read_past_limb_at_border(ring)) return true;
-  const std::vector<std::uint32_t> limbs = limbs_beyond(ring);
+  const std::vector<Side> round = sides_of(ring);
+  if (read_past_limb_at_border(ring, round)) return true;
+  const std::vector<std::uint32_t> limbs = limbs_beyond(round);
   if (limbs.empty() || limbs.size() > most) return false;
   std::vector<std::vector<Side>> closed;
   for (const std::uint32_t limb : limbs) {
@@ -572,6 +577,12 @@ bool BandGrowth::read_past_limbs(std::uint32_t ring, std::size_t most) {
     closed.pop_back();
   }
   return false;
+}
+
+bool BandGrowth::borders_unread(std::uint32_t band) const {
+  return std::ranges::any_of(bands_.triangles_of(band), [&](std::uint32_t t) {
+    return std::ranges::any_of(across_[t], [&](std::uint32_t n) { return unread(n); });
+  });
 }
 
 void BandGrowth::read_past_limbs() {
@@ -607,7 +618,7 @@ void BandGrowth::read_past_limbs_of(std::size_t most) {
   list_new();
   for (std::size_t i = 0; i < todo.size(); ++i) {
     listed[todo[i]] = 0;
-    if (!read_past_limbs(todo[i], most)) continue;
+    if (!borders_unread(todo[i] / 2) || !read_past_limbs(todo[i], most)) continue;
     read_regular();
     list_new();
   }

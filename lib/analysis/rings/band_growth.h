@@ -112,9 +112,10 @@ class BandGrowth {
   void stand_in(std::span<const Side> sides, std::span<const Triangle> triangles);
   void take_back(std::span<const Side> sides);
   void fill(std::uint32_t ring);
-  std::vector<std::uint32_t> limbs_beyond(std::uint32_t ring) const;
+  bool borders_unread(std::uint32_t band) const;
+  std::vector<std::uint32_t> limbs_beyond(std::span<const Side> sides) const;
   bool close_strip(std::uint32_t ring, std::uint32_t band);
-  bool read_past_limb_at_border(std::uint32_t ring);
+  bool read_past_limb_at_border(std::uint32_t ring, std::span<const Side> sides);
   bool read_past_limbs(std::uint32_t ring, std::size_t most);
   void read_past_limbs_of(std::size_t most);
 

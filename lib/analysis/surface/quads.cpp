@@ -16,21 +16,48 @@ double angle_at(const Double3& corner, const Double3& a, const Double3& b) {
   return std::atan2(length(cross(u, v)), dot(u, v));
 }
 
-// How far triangles `t` and `u` with the common edge (a, b) are from a rectangle: the sum over the corners of
-// the deviation from a right angle.
-double skew(const Surface& s, std::uint32_t t, std::uint32_t u, std::uint32_t a, std::uint32_t b) {
-  const Double3 pa = s.positions[a], pb = s.positions[b];
-  const Double3 pc = s.positions[third_corner(s.triangles[t], a, b)];
-  const Double3 pd = s.positions[third_corner(s.triangles[u], a, b)];
-  constexpr double k_right = std::numbers::pi / 2;
-  return std::abs(angle_at(pc, pa, pb) - k_right) + std::abs(angle_at(pd, pa, pb) - k_right) +
-         std::abs(angle_at(pa, pb, pc) + angle_at(pa, pb, pd) - k_right) +
-         std::abs(angle_at(pb, pa, pc) + angle_at(pb, pa, pd) - k_right);
+// The angles at the corners of every triangle that is not taken.
+std::vector<std::array<float, 3>> angles_of(const Surface& s, std::span<const std::uint32_t> taken) {
+  std::vector<std::array<float, 3>> angles(s.triangles.size());
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    if (taken[i] != k_none) continue;
+    const Triangle& t = s.triangles[i];
+    const Double3 &a = s.positions[t[0]], &b = s.positions[t[1]], &c = s.positions[t[2]];
+    const double at_a = angle_at(a, b, c), at_b = angle_at(b, c, a);
+    angles[i] = {static_cast<float>(at_a), static_cast<float>(at_b),
+                 static_cast<float>(std::numbers::pi - at_a - at_b)};
+  }
+  return angles;
 }
+
+// How far from rectangles two triangles with a common edge are.
+class Skew {
+ public:
+  Skew(const Surface& s, std::span<const std::uint32_t> taken) : s_(s), angles_(angles_of(s, taken)) {}
+
+  // Both not taken: of `t` and the triangle across its edge `e`: the sum over the corners of the deviation
+  // from a right angle.
+  float operator()(std::uint32_t t, std::size_t e) const {
+    const std::uint32_t u = s_.across[t][e];
+    const auto f = static_cast<std::size_t>(
+        edge_between(s_.triangles[u], s_.triangles[t][e], s_.triangles[t][(e + 1) % 3]));
+    const bool turned = s_.triangles[u][f] == s_.triangles[t][e];  // both run the same way along the edge
+    const std::array<float, 3>&x = angles_[t], &y = angles_[u];
+    const float begin = y[turned ? f : (f + 1) % 3], end = y[turned ? (f + 1) % 3 : f];
+    return off(x[(e + 2) % 3]) + off(y[(f + 2) % 3]) + off(x[e] + begin) + off(x[(e + 1) % 3] + end);
+  }
+
+ private:
+  static float off(float angle) { return std::abs(angle - std::numbers::pi_v<float> / 2); }
+
+  const Surface& s_;
+  std::vector<std::array<float, 3>> angles_;
+};
 
 // Pairs neighbours along runs of consecutive triangles that share edges: of all ways to pair them the one
 // with the fewest left over, then the least skew.
-void pair_runs(const Surface& s, std::span<const std::uint32_t> taken, std::vector<std::uint32_t>& partner) {
+void pair_runs(const Surface& s, const Skew& skew, std::span<const std::uint32_t> taken,
+               std::vector<std::uint32_t>& partner) {
   const auto n = static_cast<std::uint32_t>(s.triangles.size());
   // cost[t]: skew of pairing t with t + 1, negative when they cannot be paired.
   const auto cost_of = [&](std::uint32_t t) {
@@ -38,7 +65,7 @@ void pair_runs(const Surface& s, std::span<const std::uint32_t> taken, std::vect
     if (taken[t] != k_none || taken[t + 1] != k_none) return -1.0;
     for (std::size_t e = 0; e < 3; ++e) {
       if (s.across[t][e] != t + 1) continue;
-      const double c = skew(s, t, t + 1, s.triangles[t][e], s.triangles[t][(e + 1) % 3]);
+      const double c = skew(t, e);
       return c <= k_quad_skew_in_order ? c : -1.0;
     }
     return -1.0;
@@ -57,10 +84,10 @@ void pair_runs(const Surface& s, std::span<const std::uint32_t> taken, std::vect
   }
 }
 
-void pair_by_shape(const Surface& s, std::span<const std::uint32_t> taken,
+void pair_by_shape(const Surface& s, const Skew& skew, std::span<const std::uint32_t> taken,
                    std::vector<std::uint32_t>& partner) {
   struct Candidate {
-    double skew;
+    float skew;
     std::uint32_t t, u;
   };
   std::vector<Candidate> candidates;
@@ -69,7 +96,7 @@ void pair_by_shape(const Surface& s, std::span<const std::uint32_t> taken,
     for (std::size_t e = 0; e < 3 && is_free(t); ++e) {
       const std::uint32_t u = s.across[t][e];
       if (u == k_none || u < t || !is_free(u)) continue;
-      const double c = skew(s, t, u, s.triangles[t][e], s.triangles[t][(e + 1) % 3]);
+      const float c = skew(t, e);
       if (c <= k_quad_skew) candidates.push_back({c, t, u});
     }
   }
@@ -181,8 +208,9 @@ class Strips {
 std::vector<std::uint32_t> pair_quads(const Surface& surface, std::span<const std::uint32_t> taken,
                                       bool in_order) {
   std::vector<std::uint32_t> partner(surface.triangles.size(), k_none);
-  if (in_order) pair_runs(surface, taken, partner);
-  pair_by_shape(surface, taken, partner);
+  const Skew skew(surface, taken);
+  if (in_order) pair_runs(surface, skew, taken, partner);
+  pair_by_shape(surface, skew, taken, partner);
   return partner;
 }
 

@@ -271,6 +271,29 @@ double diagonal(const std::vector<Double3>& positions) {
   return length(box.extent());
 }
 
+// How far most edge points and face points are from where they should be, and that as a share of an edge.
+struct Misfit {
+  double off = 0, share = 0;
+};
+
+Misfit misfit_of(const Step& step, const std::vector<Double3>& target, const std::vector<Double3>& made) {
+  std::vector<double> off, share;
+  for (std::size_t f = 0; f < step.faces.size(); ++f) {
+    const std::uint32_t p = step.faces[f];
+    double edge = 0;
+    for (const std::uint32_t e : step.sides[f]) edge += distance(target[e], target[p]);
+    edge /= static_cast<double>(step.sides[f].size());
+    for (const std::uint32_t v : {p, step.sides[f][0]}) {
+      off.push_back(distance(target[v], made[v]));
+      share.push_back(edge > 0 ? off.back() / edge : 1);
+    }
+  }
+  const auto most = static_cast<std::ptrdiff_t>(k_foretold_share * static_cast<double>(off.size() - 1));
+  std::ranges::nth_element(off, off.begin() + most);
+  std::ranges::nth_element(share, share.begin() + most);
+  return {off[static_cast<std::size_t>(most)], share[static_cast<std::size_t>(most)]};
+}
+
 // The cage's positions whose subdivision has its vertices where `target` has them, and what that subdivision
 // is everywhere. Chebyshev iteration on the eigenvalues from `least` to 1.
 class Solver {
@@ -306,14 +329,29 @@ class Solver {
         make(true);
         return true;
       }
+      if (round == k_judged_round && !looks_foretold()) return false;
     }
     return false;
   }
 
   std::vector<Double3>& cage() { return cage_; }
-  const std::vector<Double3>& made() const { return on_limit_ ? made_ : stepped_; }
+  // How far off the rest is, once run() has succeeded; nothing where that is too far for rounding.
+  std::optional<double> precision() const {
+    const Misfit misfit = misfit_of(step_, target_, made());
+    const bool fits =
+        misfit.off <= k_foretold_of_diagonal * diagonal(target_) && misfit.share <= k_foretold_of_edge;
+    return fits ? std::optional(misfit.off) : std::nullopt;
+  }
 
  private:
+  const std::vector<Double3>& made() const { return on_limit_ ? made_ : stepped_; }
+
+  // Whether the rest may turn out to be where it should, by a cage that is not yet exact.
+  bool looks_foretold() {
+    make(true);
+    return misfit_of(step_, target_, made()).share <= k_judged_slack * k_foretold_of_edge;
+  }
+
   void make(bool everywhere) {
     forward_.subdivide(cage_, stepped_);
     if (on_limit_) {
@@ -329,28 +367,6 @@ class Solver {
   Forward forward_;
   std::vector<Double3> cage_, stepped_, made_;
 };
-
-// How far most edge points and face points are from where they should be; negative where that is too far for
-// rounding.
-double misfit(const Step& step, const std::vector<Double3>& target, const std::vector<Double3>& made) {
-  std::vector<double> off, share;
-  for (std::size_t f = 0; f < step.faces.size(); ++f) {
-    const std::uint32_t p = step.faces[f];
-    double edge = 0;
-    for (const std::uint32_t e : step.sides[f]) edge += distance(target[e], target[p]);
-    edge /= static_cast<double>(step.sides[f].size());
-    for (const std::uint32_t v : {p, step.sides[f][0]}) {
-      off.push_back(distance(target[v], made[v]));
-      share.push_back(edge > 0 ? off.back() / edge : 1);
-    }
-  }
-  const auto most = static_cast<std::ptrdiff_t>(k_foretold_share * static_cast<double>(off.size() - 1));
-  std::ranges::nth_element(off, off.begin() + most);
-  std::ranges::nth_element(share, share.begin() + most);
-  const bool fits = off[static_cast<std::size_t>(most)] <= k_foretold_of_diagonal * diagonal(target) &&
-                    share[static_cast<std::size_t>(most)] <= k_foretold_of_edge;
-  return fits ? off[static_cast<std::size_t>(most)] : -1;
-}
 
 // A surface of quads and what it has come from so far.
 struct Level {
@@ -371,8 +387,8 @@ std::optional<Undone> undo(const Level& level, bool on_limit) {
       if (!step) continue;
       Solver solver(*step, level.positions, on_limit);
       if (!solver.run()) continue;
-      const double precision = misfit(*step, level.positions, solver.made());
-      if (precision >= 0) return Undone{std::move(*step), std::move(solver.cage()), precision};
+      if (const std::optional<double> precision = solver.precision())
+        return Undone{std::move(*step), std::move(solver.cage()), *precision};
     }
   }
   return std::nullopt;

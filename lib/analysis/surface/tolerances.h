@@ -21,6 +21,14 @@ inline constexpr double k_weld_float_noise = 1.0 / (1 << 22);
 // ... but never more than this share of the diagonal, for meshes far from the origin stored in more digits.
 inline constexpr double k_weld_noise_of_diagonal = 1.0 / (1 << 23);
 
+// spatial_order
+
+// Share of the diagonal that lies on average between triangles that follow one another: random points of a
+// tree have a quarter, limb after limb has a hundredth and less.
+inline constexpr double k_scattered = 1.0 / 32;
+// Triangles: fewer fit into a cache with all that is known about them.
+inline constexpr std::size_t k_least_scattered = 16384;
+
 // reading rings
 
 // Triangles, as multiples of the surface's own, that attempts to read it may touch before it counts as no

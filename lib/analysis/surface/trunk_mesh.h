@@ -15,9 +15,11 @@
 namespace copse {
 
 struct TrunkMesh {
-  std::vector<Double3> positions;     // welded: within a surface no two closer than the weld tolerance
-  std::vector<Triangle> triangles;    // indices into positions; none degenerate (three distinct indices)
-  std::vector<std::uint32_t> source;  // the mesh triangle that each came from, ascending
+  std::vector<Double3> positions;   // welded: within a surface no two closer than the weld tolerance
+  std::vector<Triangle> triangles;  // indices into positions; none degenerate (three distinct indices)
+  // The mesh triangle that each came from: ascending, but for files in which they lie scattered
+  // (spatial_order.h).
+  std::vector<std::uint32_t> source;
   // Adjacency before welding: the connected piece of the *unwelded* mesh that each triangle belongs to,
   // numbered by first triangle. Surfaces are what shared vertices connect; a surface is one piece or several.
   std::vector<std::uint32_t> piece;

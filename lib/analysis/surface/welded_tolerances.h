@@ -156,6 +156,11 @@ inline constexpr double k_least_limit_eigenvalue = 0.06;
 // Share of the diagonal at which the iteration is done: below what files round to.
 inline constexpr double k_solved_share = 1e-9;
 inline constexpr int k_solver_rounds = 200;
+// The round after which, a cage being off by some thousandths of an edge, points that are off by more than so
+// many times what is allowed in the end are not the subdivision's: most surfaces are none, and wait for no
+// more rounds.
+inline constexpr int k_judged_round = 12;
+inline constexpr double k_judged_slack = 2;
 // Share of the edge points and face points that must be where the cage foretells them ...
 inline constexpr double k_foretold_share = 0.9;
 // ... within this share of the diagonal (five decimals of a ten metre tree; a circle of sixteen is off the
