@@ -1,61 +1,114 @@
 #include "lib/analysis/measure/cylinder_error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace copse {
 namespace {
 
-struct Sample {
-  double error = 0, weight = 0;
+// Sums up samples without keeping them: the percentile is the upper border of its bin, at most 1.1 % high.
+class Distribution {
+ public:
+  void add(double error, double weight) {
+    total_ += weight, sum_ += weight * error, squares_ += weight * error * error;
+    largest_ = std::max(largest_, error);
+    bins_[bin(error)] += weight;
+  }
+
+  ErrorDistribution result() const {
+    ErrorDistribution d;
+    d.max = largest_;
+    if (total_ <= 0) return d;
+    d.mean = sum_ / total_;
+    d.rms = std::sqrt(squares_ / total_);
+    double below = 0;
+    std::size_t i = 0;
+    while (i + 1 < bins_.size() && (below += bins_[i]) < 0.95 * total_) ++i;
+    d.p95 = std::min(largest_, upper(i));
+    return d;
+  }
+
+ private:
+  static constexpr int k_per_octave = 64, k_lowest = -60, k_highest = 40;
+  static std::size_t bin(double error) {
+    if (!(error > 0)) return 0;
+    const double place = (std::log2(error) - k_lowest) * k_per_octave;
+    return static_cast<std::size_t>(
+        std::clamp(place + 1, 0.0, double{(k_highest - k_lowest) * k_per_octave}));
+  }
+  static double upper(std::size_t bin) {
+    return bin == 0 ? 0 : std::exp2(static_cast<double>(bin) / k_per_octave + k_lowest);
+  }
+
+  std::vector<double> bins_ = std::vector<double>((k_highest - k_lowest) * k_per_octave + 1, 0.0);
+  double total_ = 0, sum_ = 0, squares_ = 0, largest_ = 0;
 };
 
-ErrorDistribution summarize(std::vector<Sample>& samples) {
-  ErrorDistribution d;
-  double total = 0, sum = 0, squares = 0;
-  for (const Sample& s : samples) {
-    total += s.weight, sum += s.weight * s.error, squares += s.weight * s.error * s.error;
-    d.max = std::max(d.max, s.error);
-  }
-  if (total <= 0) return d;
-  d.mean = sum / total;
-  d.rms = std::sqrt(squares / total);
-  std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
-    return a.error != b.error ? a.error < b.error : a.weight < b.weight;
-  });
-  double below = 0;
-  for (const Sample& s : samples) {
-    below += s.weight;
-    if (below >= 0.95 * total) {
-      d.p95 = s.error;
-      break;
-    }
-  }
-  return d;
+// Along the axis and away from it.
+struct Profile {
+  double along = 0, away = 0;
+};
+
+double distance_to_edge(const Profile& p, const Profile& a, const Profile& b) {
+  const double x = b.along - a.along, y = b.away - a.away, squared = x * x + y * y;
+  const double t =
+      squared > 0 ? std::clamp(((p.along - a.along) * x + (p.away - a.away) * y) / squared, 0.0, 1.0) : 0.0;
+  return std::hypot(p.along - a.along - t * x, p.away - a.away - t * y);
 }
 
-// The frustum between two radii, and how far a point is from it.
-struct Frustum {
-  Double3 base, axis;
-  double length_squared = 0, base_radius = 0, top_radius = 0;
-
+// The frustum between two radii.
+class Frustum {
+ public:
   Frustum(const RadiusNode& parent, const RadiusNode& child)
-      : base(parent.centre),
-        axis(child.centre - parent.centre),
-        length_squared(dot(axis, axis)),
-        base_radius(parent.diameter / 2),
-        top_radius(child.diameter / 2) {}
-
-  double parameter(const Double3& p) const {
-    return length_squared > 0 ? std::clamp(dot(p - base, axis) / length_squared, 0.0, 1.0) : 0.0;
+      : base_(parent.centre),
+        axis_(child.centre - parent.centre),
+        length_(length(axis_)),
+        base_radius_(parent.diameter / 2),
+        top_radius_(child.diameter / 2) {
+    if (length_ > 0) axis_ = axis_ / length_;
   }
-  double radius(double t) const { return base_radius + t * (top_radius - base_radius); }
+
+  // Of a point from the surface: the side and the two discs.
+  double distance_from(const Double3& p) const {
+    const Profile at = profile(p), low{0, base_radius_}, high{length_, top_radius_};
+    return std::min({distance_to_edge(at, low, high), distance_to_edge(at, {0, 0}, low),
+                     distance_to_edge(at, {length_, 0}, high)});
+  }
+  // At the height of a point.
+  double radius_at(const Double3& p) const {
+    const double t = length_ > 0 ? std::clamp(profile(p).along / length_, 0.0, 1.0) : 0.0;
+    return base_radius_ + t * (top_radius_ - base_radius_);
+  }
+  double larger_radius() const { return std::max(base_radius_, top_radius_); }
+
+ private:
+  Profile profile(const Double3& p) const {
+    const Double3 d = p - base_;
+    const double along = dot(d, axis_);
+    return {along, length(d - axis_ * along)};
+  }
+
+  Double3 base_, axis_;
+  double length_ = 0, base_radius_ = 0, top_radius_ = 0;
 };
+
+struct Weighted {
+  Double3 point;
+  double weight;
+};
+
+std::array<Weighted, 7> samples_of(const Double3& a, const Double3& b, const Double3& c) {
+  constexpr double k_corner = 1.0 / 20, k_side = 2.0 / 15, k_middle = 9.0 / 20;
+  return {Weighted{a, k_corner},      {b, k_corner},         {c, k_corner},
+          {(a + b) / 2, k_side},      {(b + c) / 2, k_side}, {(c + a) / 2, k_side},
+          {(a + b + c) / 3, k_middle}};
+}
 
 }  // namespace
 
 CylinderError cylinder_error(const TrunkMesh& trunk, const Hierarchy& hierarchy, double height) {
-  std::vector<Sample> of_radius, of_height;
+  Distribution of_radius, of_height;
   double area_all = 0, area_explained = 0;
   std::size_t explained = 0;
   for (std::size_t i = 0; i < trunk.triangles.size(); ++i) {
@@ -65,19 +118,19 @@ CylinderError cylinder_error(const TrunkMesh& trunk, const Hierarchy& hierarchy,
     area_all += area;
     const std::uint32_t s = hierarchy.segment_of[i];
     if (s == k_none || hierarchy.radii[s].parent == k_none) continue;
-    ++explained, area_explained += area;
     const Frustum frustum(hierarchy.radii[hierarchy.radii[s].parent], hierarchy.radii[s]);
-    for (const std::uint32_t v : t) {
-      const Double3& p = trunk.positions[v];
-      const double u = frustum.parameter(p), r = frustum.radius(u);
-      const double error = std::abs(distance(p, frustum.base + frustum.axis * u) - r);
-      if (r > 0) of_radius.push_back({error / r, area / 3});
-      if (height > 0) of_height.push_back({error / height, area / 3});
+    const double within = k_explained_within * frustum.larger_radius();
+    if (std::max({frustum.distance_from(a), frustum.distance_from(b), frustum.distance_from(c)}) <= within)
+      ++explained, area_explained += area;
+    for (const Weighted& sample : samples_of(a, b, c)) {
+      const double error = frustum.distance_from(sample.point), r = frustum.radius_at(sample.point);
+      if (r > 0) of_radius.add(error / r, area * sample.weight);
+      if (height > 0) of_height.add(error / height, area * sample.weight);
     }
   }
   CylinderError out;
-  out.of_radius = summarize(of_radius);
-  out.of_height = summarize(of_height);
+  out.of_radius = of_radius.result();
+  out.of_height = of_height.result();
   if (!trunk.triangles.empty()) {
     out.explained_triangles = static_cast<double>(explained) / static_cast<double>(trunk.triangles.size());
     out.explained_area = area_all > 0 ? area_explained / area_all : out.explained_triangles;

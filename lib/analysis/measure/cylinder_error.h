@@ -14,20 +14,24 @@ struct ErrorDistribution {
   double mean = 0, rms = 0, p95 = 0, max = 0;
 };
 
-// Each explained triangle is sampled at its three corners. A sample's error is the distance, at right angles
-// to the axis, between it and the cone frustum whose ends are the segment's two radii (mean diameters). On a
-// tube whose rings are regular polygons the error is zero: it measures what replacing rings by circles gives
-// away.
+// A triangle counts as explained when a segment owns it and no corner of it is farther from that segment's
+// surface than this share of the segment's larger radius.
+inline constexpr double k_explained_within = 0.5;
+
+// Every triangle that a segment owns is sampled at its corners, the middles of its sides and its own middle,
+// with the weights of the rule that is exact for cubics (1/20, 2/15 and 9/20 of its area). A sample's error
+// is its distance from the surface of the cone frustum, end discs included, whose ends are the segment's two
+// radii (mean diameters). So it holds what replacing rings by circles gives away: 1 - cos(pi / k) of the
+// radius at the middle of a side of a regular ring of k.
 struct CylinderError {
   ErrorDistribution
       of_radius;  // as a share of the local radius; where the radius is 0, the distance is left out
-  ErrorDistribution of_height;  // as a share of `height`
-  double explained_triangles =
-      1;  // share of the trunk's triangles that some segment explains; 1 when there are none
-  double explained_area = 1;  // the same by area
+  ErrorDistribution of_height;     // as a share of `height`
+  double explained_triangles = 1;  // share of the trunk's triangles; 1 when there are none
+  double explained_area = 1;       // the same by area
 };
 
-// Cost: O(n log n) in the explained triangles (the percentile sorts).
+// The 95th percentile is at most 1.1 % too high. O(triangles), memory constant.
 CylinderError cylinder_error(const TrunkMesh& trunk, const Hierarchy& hierarchy, double height);
 
 }  // namespace copse

@@ -1,17 +1,45 @@
 #include "lib/analysis/trunk/fit.h"
 
-#include "lib/analysis/measure/cylinder_error.h"
+#include <algorithm>
+#include <cmath>
 
 namespace copse {
+namespace {
+
+// At right angles to the axis: how far a point is from the frustum between two radii.
+double off_frustum(const Double3& p, const RadiusNode& base, const RadiusNode& top) {
+  const Double3 axis = top.centre - base.centre;
+  const double squared = dot(axis, axis);
+  const double t = squared > 0 ? std::clamp(dot(p - base.centre, axis) / squared, 0.0, 1.0) : 0.0;
+  const double radius = base.diameter / 2 + t * (top.diameter - base.diameter) / 2;
+  return std::abs(distance(p, base.centre + axis * t) - radius);
+}
+
+}  // namespace
 
 Fit fit_of(const Surface& surface, const Hierarchy& hierarchy) {
-  TrunkMesh mesh;
-  mesh.positions = surface.positions;
-  mesh.triangles = surface.triangles;
   DoubleBox box;
   for (const Double3& p : surface.positions) box.grow(p);
-  const CylinderError error = cylinder_error(mesh, hierarchy, length(box.extent()));
-  return {error.of_height.mean, error.explained_area};
+  const double size = length(box.extent());
+  double all = 0, owned = 0, off = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const Triangle& t = surface.triangles[i];
+    const Double3 &a = surface.positions[t[0]], &b = surface.positions[t[1]], &c = surface.positions[t[2]];
+    const double area = 0.5 * length(cross(b - a, c - a));
+    all += area;
+    const std::uint32_t s = hierarchy.segment_of[i];
+    if (s == k_none || hierarchy.radii[s].parent == k_none) continue;
+    ++count, owned += area;
+    const RadiusNode &top = hierarchy.radii[s], &base = hierarchy.radii[top.parent];
+    off += area / 3 * (off_frustum(a, base, top) + off_frustum(b, base, top) + off_frustum(c, base, top));
+  }
+  Fit fit;
+  if (owned > 0 && size > 0) fit.distance = off / owned / size;
+  fit.explained = surface.triangles.empty() ? 1
+                  : all > 0                 ? owned / all
+                            : static_cast<double>(count) / static_cast<double>(surface.triangles.size());
+  return fit;
 }
 
 }  // namespace copse

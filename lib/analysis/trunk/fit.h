@@ -7,7 +7,9 @@
 namespace copse {
 
 struct Fit {
-  double distance = 0;  // mean distance of the surface from its generalized cylinders, as a share of its size
+  // Mean distance of the surface's vertices from its generalized cylinders, at right angles to their axes and
+  // weighted by area, as a share of its size: 0 where rings are regular, whatever their number of sides.
+  double distance = 0;
   double explained = 0;  // share of the area that some segment explains
 
   // Smaller is better. What is not explained counts as if it lay a tenth of the surface's size off.
@@ -15,7 +17,7 @@ struct Fit {
 };
 
 // The size is the diagonal of the bounding box. Unlike shares of the local radius, which explode at pointed
-// tips, this is bounded. O(n log n).
+// tips, this is bounded. O(n).
 Fit fit_of(const Surface& surface, const Hierarchy& hierarchy);
 
 }  // namespace copse
