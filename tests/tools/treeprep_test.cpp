@@ -101,8 +101,18 @@ TEST_F(Treeprep, NamesEveryBreachOfTheStrictModel) {
   const Outcome o =
       prepare(input(little_tree_obj(5, 4, 3, "v 9 9 9\nv 10 9 9\nv 10 10 9\nv 9 10 9\nf -4 -3 -2 -1\n")),
               {"--strict"});
-  expect_refused(o, 1, "strict");
-  EXPECT_GE(line_count(o.err), 2u) << o.err;
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(line_count(o.err), 1u) << o.err;
+  EXPECT_NE(o.err.find("rules"), std::string::npos) << o.err;
+  for (const char* rule : {"rule 1: ", "rule 3.2: ", "rule 4.5: "})
+    EXPECT_NE(o.out.find(rule), std::string::npos) << rule << " in " << o.out;
+}
+
+TEST_F(Treeprep, NamesFaultsOfTheFileAndBreachesTogether) {
+  const Outcome o = prepare(input(little_tree_obj(5, 4, 3, "f 1 2 99999\n")), {"--strict", "-q"});
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.out.find("99999"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("rule 4.7: "), std::string::npos) << o.out;
 }
 
 TEST_F(Treeprep, LeavesOutWhatIsNotWantedAndSaysSo) {

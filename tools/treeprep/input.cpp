@@ -128,7 +128,12 @@ Result<Input> read_input(const Options& options, Context& context) {
   Stage stage = context.stage("read");
   for (const fs::path& path : options.inputs) {
     auto import = import_mesh(path, {.strict = options.strict});
+    const bool strictly = import.has_value();
+    if (!import && options.strict) import = import_mesh(path, {});  // so that one fault does not hide others
     if (!import) return std::unexpected(import.error());
+    if (!strictly) {
+      for (const std::string& fault : import->warnings) input.faults.push_back(path.string() + ": " + fault);
+    }
     for (std::size_t i = 0; i < import->files.size(); ++i) context.read(import->files[i], i == 0);
     for (const std::string& warning : import->warnings) context.warn(path.string() + ": " + warning);
     relocate_textures(import->mesh, path, options.output);
@@ -146,6 +151,10 @@ Result<Input> read_input(const Options& options, Context& context) {
   if (const auto ok = check_size(input.mesh, input.name); !ok) return std::unexpected(ok.error());
   if (options.up == UpAxis::y) warn_if_z_up(input.mesh, input.name, context);
   return input;
+}
+
+double weld_tolerance(const Input& input, const Options& options) {
+  return options.weld < 0 ? -1 : options.weld * length(bounds(input.mesh).extent());
 }
 
 }  // namespace copse::treeprep

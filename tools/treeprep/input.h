@@ -7,20 +7,25 @@
 #include "tools/treeprep/options.h"
 
 #include <string>
+#include <vector>
 
 namespace copse::treeprep {
 
 struct Input {
-  Mesh mesh;           // oriented, scaled; at least one triangle
-  std::string name;    // for messages: the first file, "(+2 more)" where there are several
-  std::string format;  // "obj", "glb", ...
+  Mesh mesh;                        // oriented, scaled; at least one triangle
+  std::string name;                 // for messages: the first file, "(+2 more)" where there are several
+  std::string format;               // "obj", "glb", ...
+  std::vector<std::string> faults;  // with --strict: what the files themselves have wrong
 };
 
 // The largest extent of a tree, in metres: beyond it the area of a triangle may not fit a float32.
 inline constexpr double k_largest_extent = 1e18;
 
 // Texture references come out relative to the folder of `options.output`. What was dropped or mended is
-// warned about; with --strict it is refused.
+// warned about; with --strict it is also listed in `faults`.
 Result<Input> read_input(const Options& options, Context& context);
+
+// The distance in metres within which --weld makes positions one; negative: decided place by place.
+double weld_tolerance(const Input& input, const Options& options);
 
 }  // namespace copse::treeprep

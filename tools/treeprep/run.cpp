@@ -46,14 +46,23 @@ Result<Classification> classify_stage(const Input& input, const Options& options
   return classes;
 }
 
+// A tolerance of the user's that makes nothing of much of the trunk.
+void warn_of_lost(const Input& input, std::ptrdiff_t before, std::size_t after, const Options& options,
+                  Context& context) {
+  const std::size_t lost = static_cast<std::size_t>(before) - after;
+  if (options.weld < 0 || lost * 100 <= static_cast<std::size_t>(before)) return;
+  context.warn(fmt::format("{}: --weld {} leaves no area to {} of {} trunk triangles; use a smaller one",
+                           input.name, options.weld, lost, before));
+}
+
 TrunkMesh weld_stage(const Input& input, const Classification& classes, const Options& options,
                      Context& context) {
   Stage stage = context.stage("weld");
   std::vector<std::uint8_t> is_trunk(input.mesh.triangles.size());
   for (std::size_t t = 0; t < is_trunk.size(); ++t) is_trunk[t] = classes.leaf_of[t] == k_none;
-  const double tolerance = options.weld < 0 ? -1 : options.weld * length(bounds(input.mesh).extent());
-  TrunkMesh trunk = make_trunk_mesh(input.mesh, is_trunk, tolerance);
+  TrunkMesh trunk = make_trunk_mesh(input.mesh, is_trunk, weld_tolerance(input, options));
   stage.items(trunk.triangles.size(), "trunk triangles");
+  warn_of_lost(input, std::ranges::count(is_trunk, 1), trunk.triangles.size(), options, context);
   return trunk;
 }
 
@@ -72,13 +81,18 @@ Result<Analysis> analyse(Input& input, const Options& options, TreeKind kind, co
   if (!classes) return std::unexpected(classes.error());
   a.classes = std::move(*classes);
   if (options.strict) {
-    if (const auto ok = strict_stage(input, a.classes, context); !ok) return std::unexpected(ok.error());
+    auto strict = strict_stage(input, a.classes, options, context);
+    if (!strict) return std::unexpected(strict.error());
+    a.trunk = std::move(strict->mesh), a.hierarchy = std::move(strict->hierarchy);
+    add_lone_segment(a.trunk, a.hierarchy);
   }
   if (!left_out.textures) {
     if (const auto ok = texture_stage(input, options, context); !ok) return std::unexpected(ok.error());
   }
-  a.trunk = weld_stage(input, a.classes, options, context);
-  a.hierarchy = skeleton_stage(a.trunk, options, context);
+  if (!options.strict) {
+    a.trunk = weld_stage(input, a.classes, options, context);
+    a.hierarchy = skeleton_stage(a.trunk, options, context);
+  }
   const Double3 origin = choose_origin(bounds(input.mesh));
   a.leaves = leaf_stage(input, a.classes, a.hierarchy, origin, options, left_out, context);
 

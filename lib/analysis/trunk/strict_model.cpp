@@ -4,22 +4,25 @@
 #include <array>
 #include <numeric>
 
+#include <fmt/format.h>
+
 namespace copse {
 namespace {
 
 using Indices = std::vector<std::uint32_t>;
 
 void note(Breach& breach, std::uint32_t element) {
-  if (breach.elements.size() < k_breach_elements) breach.elements.push_back(element);
-  ++breach.count;
+  breach.elements.push_back(element);
 }
 
 void keep(std::vector<Breach>& all, Breach breach) {
-  if (breach.count > 0) all.push_back(std::move(breach));
+  if (breach.elements.empty()) return;
+  std::ranges::sort(breach.elements);
+  all.push_back(std::move(breach));
 }
 
 Breach breach(const char* rule, std::string what, const char* element) {
-  return {rule, std::move(what), element, {}, 0};
+  return {rule, std::move(what), element, {}};
 }
 
 Triangle welded_corners(const Triangle& t, std::span<const std::uint32_t> welded) {
@@ -35,6 +38,15 @@ void check_faces(const Mesh& mesh, std::vector<Breach>& all) {
     if (second && !third) note(polygons, mesh.face_of[t]);
   }
   keep(all, std::move(polygons));
+}
+
+// Rule 2: there is a trunk for leaves to grow on.
+void check_for_trunk(std::span<const std::uint32_t> leaf_of, std::vector<Breach>& all) {
+  if (std::ranges::find(leaf_of, k_none) != leaf_of.end()) return;
+  Breach leafy = breach("2: leaves and a trunk", "triangles, all of them leaves", "triangle");
+  leafy.elements.resize(leaf_of.size());
+  std::iota(leafy.elements.begin(), leafy.elements.end(), 0u);
+  keep(all, std::move(leafy));
 }
 
 // Rule 3.1: a leaf is an isolated triangle.
@@ -113,13 +125,14 @@ class Reader {
   Reader(const Mesh& mesh, const TrunkGraph& graph, StrictModel& out)
       : mesh_(mesh), graph_(graph), out_(out), ring_of_(graph.size(), k_none), mark_(graph.size(), 0) {}
 
-  void run() {
+  void run(std::span<const std::uint32_t> welded, std::span<const std::uint32_t> leaf_of) {
     find_roots();
     for (std::uint32_t r = 0; r < out_.parent.size(); ++r) find_children(r);
     keep(out_.breaches, std::move(root_sizes_));
     keep(out_.breaches, std::move(sizes_));
     check_joints();
     check_reached();
+    check_bands(welded, leaf_of);
   }
 
  private:
@@ -204,6 +217,34 @@ class Reader {
     keep(out_.breaches, std::move(loose));
   }
 
+  // Rule 4.1: two radii are joined by a cylinder, two triangles a side; radii that are no closed rings
+  // (strips of grass) have a side less than vertices.
+  void check_bands(std::span<const std::uint32_t> welded, std::span<const std::uint32_t> leaf_of) {
+    Indices band(out_.parent.size(), 0);
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      if (leaf_of[i] != k_none) continue;
+      const Triangle t = welded_corners(mesh_.triangles[i], welded);
+      std::array<std::uint32_t, 3> rings{ring_of_[t[0]], ring_of_[t[1]], ring_of_[t[2]]};
+      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || std::ranges::max(rings) == k_none) continue;
+      for (const std::uint32_t r : {std::ranges::max(rings), std::ranges::min(rings)}) {
+        if (out_.parent[r] != k_none && std::ranges::find(rings, out_.parent[r]) != rings.end()) {
+          ++band[r];
+          break;
+        }
+      }
+    }
+    Breach open =
+        breach("4.1: the trunk is cylinders joined to one another",
+               "radii that no closed band of triangles joins to their parent, with a vertex", "vertex");
+    const auto size = [&](std::uint32_t r) { return out_.first_vertex[r + 1] - out_.first_vertex[r]; };
+    for (std::uint32_t r = 0; r < out_.parent.size(); ++r) {
+      const std::uint32_t k = out_.ring_size;
+      if (out_.parent[r] == k_none || size(r) != k || size(out_.parent[r]) != k) continue;
+      if (band[r] != 2 * k && band[r] != 2 * (k - 1)) note(open, out_.vertices[out_.first_vertex[r]]);
+    }
+    keep(out_.breaches, std::move(open));
+  }
+
   const Mesh& mesh_;
   const TrunkGraph& graph_;
   StrictModel& out_;
@@ -220,22 +261,25 @@ class Reader {
 }  // namespace
 
 std::string to_text(const Breach& breach) {
-  std::string text = "rule " + breach.rule + ": " + breach.what + ": " + std::to_string(breach.count) + " (" +
-                     breach.element;
-  for (std::size_t i = 0; i < breach.elements.size(); ++i) {
-    text += (i == 0 ? " " : ", ") + std::to_string(breach.elements[i]);
+  const Indices& e = breach.elements;
+  std::string text = fmt::format("rule {}: {}: {} ({}", breach.rule, breach.what, e.size(), breach.element);
+  for (std::size_t i = 0, end = 0; i < e.size(); i = end) {
+    for (end = i + 1; end < e.size() && e[end] - e[i] == end - i;) ++end;
+    text += fmt::format("{}{}", i == 0 ? " " : ", ", e[i]);
+    if (end - i > 1) text += fmt::format("-{}", e[end - 1]);
   }
-  return text + (breach.count > breach.elements.size() ? ", ...)" : ")");
+  return text + ")";
 }
 
 StrictModel read_strict_model(const Mesh& mesh, std::span<const std::uint32_t> welded,
                               std::span<const std::uint32_t> leaf_of) {
   StrictModel out;
   check_faces(mesh, out.breaches);
+  check_for_trunk(leaf_of, out.breaches);
   check_leaves_alone(mesh, welded, leaf_of, out.breaches);
   check_materials(mesh, leaf_of, true, out.breaches);
   const TrunkGraph graph(mesh, welded, leaf_of);
-  Reader(mesh, graph, out).run();
+  Reader(mesh, graph, out).run(welded, leaf_of);
   check_materials(mesh, leaf_of, false, out.breaches);
   return out;
 }

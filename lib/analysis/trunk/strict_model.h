@@ -12,18 +12,15 @@
 
 namespace copse {
 
-// One rule that the model breaks, and where. `elements` are the first k_breach_elements of `count`.
+// One rule that the model breaks, and where.
 struct Breach {
   std::string rule;     // numbered as in digest 000, section 1.1: "4.5: every radius has k vertices"
   std::string what;     // "radii of another number of vertices than the first root's 6"
   std::string element;  // what the numbers count: "vertex", "triangle", "face"; from 0, as in the mesh
-  std::vector<std::uint32_t> elements;
-  std::uint64_t count = 0;
+  std::vector<std::uint32_t> elements;  // all of them, ascending
 };
 
-inline constexpr std::size_t k_breach_elements = 8;
-
-// "rule 4.5: every radius has k vertices: ...: 3 (vertex 12, 19, 40)"
+// "rule 4.5: every radius has k vertices: ...: 5 (vertex 12, 19, 40-42)"
 std::string to_text(const Breach& breach);
 
 struct StrictModel {
@@ -31,7 +28,7 @@ struct StrictModel {
   std::vector<std::uint32_t> parent;           // one a radius, parents first; k_none for a root
   std::vector<std::uint32_t> first_vertex{0};  // radii + 1
   std::vector<std::uint32_t> vertices;  // representatives as weld() gives them, ascending inside a ring
-  std::vector<Breach> breaches;         // all of them, in the order of the rules; empty: the model is sound
+  std::vector<Breach> breaches;         // all of them; empty: the model is sound
 };
 
 // `welded`: weld()'s answer for mesh.positions. `leaf_of`: one a triangle, k_none on the trunk. Radii are
