@@ -16,7 +16,7 @@ inline int fuzz_import(const std::uint8_t* data, std::size_t size, MeshFormat fo
     const Result<Import> result =
         import_mesh({data, size}, format, "fuzz", {.strict = strict, .instance_limit = 100'000});
     const char* broken = nullptr;
-    if (result) broken = testing::broken_promise(result->mesh);
+    if (result) broken = testing::broken_promise(*result);
     if (!result && result.error().fault == Fault::bug) broken = result.error().what.c_str();
     if (broken == nullptr) continue;
     std::fprintf(stderr, "%s\n", broken);

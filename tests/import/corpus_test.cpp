@@ -23,7 +23,7 @@ void expect_corpus_survives(const char* folder, MeshFormat format) {
       const auto result =
           import_mesh(as_bytes(bytes), format, "corpus", {.strict = strict, .instance_limit = 100'000});
       if (result) {
-        EXPECT_EQ(broken_promise(result->mesh), nullptr) << path;
+        EXPECT_EQ(broken_promise(*result), nullptr) << path;
       } else {
         EXPECT_NE(result.error().fault, Fault::bug) << path << ": " << error_of(result);
       }

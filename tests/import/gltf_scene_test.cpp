@@ -121,6 +121,24 @@ TEST(GltfScene, InstancingPlacesCopiesWithinTheNode) {
   EXPECT_EQ(m.mesh.parts.size(), 1u);
 }
 
+TEST(GltfScene, NodesAndTheirInstancesAreGroups) {
+  GltfMaker maker = with_mesh();
+  maker.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+  const Json two = {{"TRANSLATION", maker.accessor<float>({0, 0, 0, 5, 0, 0}, "VEC3")}};
+  maker.json["nodes"] = {
+      {{"name", "wood"}, {"children", {1, 2, 3, 4}}},
+      {{"name", "oak"}, {"mesh", 0}},
+      {{"name", "oak"}, {"mesh", 0}},
+      {{"name", "nothing"}},
+      {{"name", "ferns"}, {"mesh", 0}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", two}}}}}}};
+  const Import m = maker.import();
+  std::vector<std::pair<std::string, std::uint32_t>> groups;
+  for (const SourceGroup& g : m.groups) groups.emplace_back(g.name, g.parent);
+  EXPECT_EQ(groups, (std::vector<std::pair<std::string, std::uint32_t>>{
+                        {"wood", k_none}, {"oak", 0}, {"oak", 0}, {"ferns", 0}, {"", 3}, {"", 3}}));
+  EXPECT_EQ(m.group_of, (std::vector<std::uint32_t>{1, 2, 4, 5}));
+}
+
 TEST(GltfScene, InstancesCannotTakeMoreThanTheirLimit) {
   GltfMaker maker;
   maker.show({{"attributes", {{"POSITION", maker.triangle()}}}});

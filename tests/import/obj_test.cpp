@@ -80,6 +80,21 @@ TEST(Obj, PartsAreObjectGroupAndMaterialInOrderOfUse) {
   EXPECT_EQ(m.mesh.materials[1].name, "leaf green");
 }
 
+TEST(Obj, ObjectsOfOneNameAreApartAndGroupsOfOneNameInAnObjectAreOne) {
+  const Import m = obj(std::string(k_square) +
+                       "f 1 2 3\no oak\nf 1 2 3\ng leaves\nf 1 3 4\nusemtl bark\nf 1 2 4\ng bark\nf 2 3 4\n"
+                       "g leaves\nf 1 2 3 4\ng\no oak\nf 1 2 3\n");
+  ASSERT_EQ(m.groups.size(), 4u);
+  const std::vector<std::pair<std::string, std::uint32_t>> expected{
+      {"oak", k_none}, {"leaves", 0}, {"bark", 0}, {"oak", k_none}};
+  for (std::size_t g = 0; g < expected.size(); ++g) {
+    EXPECT_EQ(m.groups[g].name, expected[g].first);
+    EXPECT_EQ(m.groups[g].parent, expected[g].second);
+  }
+  EXPECT_EQ(m.group_of, (std::vector<std::uint32_t>{k_none, 0, 1, 1, 2, 1, 1, 3}));
+  EXPECT_TRUE(obj(std::string(k_square) + "f 1 2 3\n").groups.empty());
+}
+
 TEST(Obj, PolygonsAreCutAndRemembered) {
   const Import m = obj(std::string(k_square) + "v 0.5 2 0\nf 1 2 3\nf 1 2 3 4\nf 1 2 3 5 4\nf 2 3 4\n");
   EXPECT_EQ(m.counts.cut_polygons, 2u);

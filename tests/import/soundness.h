@@ -1,7 +1,7 @@
 // Every promise of import.h about what a Mesh holds, for tests and fuzzers.
 #pragma once
 
-#include "lib/formats/mesh.h"
+#include "lib/formats/import/import.h"
 
 #include <cmath>
 
@@ -50,6 +50,19 @@ inline const char* broken_promise(const Mesh& mesh) {
     if (m.texture != k_none && m.texture >= mesh.textures.size()) return "a material names a missing texture";
   }
   return nullptr;
+}
+
+inline const char* broken_promise(const Import& import) {
+  for (std::size_t g = 0; g < import.groups.size(); ++g) {
+    if (import.groups[g].parent != k_none && import.groups[g].parent >= g)
+      return "a group's parent is no earlier one";
+  }
+  if (import.group_of.size() != (import.groups.empty() ? 0 : import.mesh.triangles.size()))
+    return "not every triangle is told its group";
+  for (const std::uint32_t group : import.group_of) {
+    if (group != k_none && group >= import.groups.size()) return "a triangle names a missing group";
+  }
+  return broken_promise(import.mesh);
 }
 
 }  // namespace copse::testing

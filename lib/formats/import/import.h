@@ -35,8 +35,17 @@ struct ImportCounts {
   std::uint64_t cut_polygons = 0;       // n-gons, n > 3, triangulated
 };
 
+// What a source groups triangles by: an object or a group of an OBJ, a node of a glTF scene or one of its
+// instances, a solid of an STL. Two of one name are two things.
+struct SourceGroup {
+  std::string name;               // may be empty
+  std::uint32_t parent = k_none;  // an earlier one, k_none at the top
+};
+
 struct Import {
   Mesh mesh;
+  std::vector<SourceGroup> groups;      // empty where the source groups nothing
+  std::vector<std::uint32_t> group_of;  // one a triangle, k_none: in no group; empty as `groups`
   MeshFormat format = MeshFormat::unknown;
   ImportCounts counts;
   std::vector<std::string> warnings;

@@ -50,6 +50,15 @@ std::uint32_t MeshBuilder::part(const std::string& object, const std::string& gr
   return it->second;
 }
 
+std::uint32_t MeshBuilder::group(std::string name, std::uint32_t parent) {
+  groups_.push_back({std::move(name), parent});
+  return static_cast<std::uint32_t>(groups_.size() - 1);
+}
+
+void MeshBuilder::close_group(std::uint32_t group) {
+  if (!groups_.empty()) group_of_.resize(mesh.triangles.size(), group);
+}
+
 void MeshBuilder::reserve(std::uint64_t triangles) {
   // Exactly so at first, then in growing steps: a scene of many small meshes asks often.
   const std::uint64_t capacity = mesh.triangles.capacity();
@@ -195,8 +204,11 @@ Result<Import> MeshBuilder::finish(MeshFormat format) {
   drop_spoilt(spoilt_texcoords_, mesh.texcoord_triangles, counts.dropped_texcoords);
   if (!has_any(mesh.normal_triangles)) mesh.normal_triangles = {};
   if (!has_any(mesh.texcoord_triangles)) mesh.texcoord_triangles = {};
+  close_group(k_none);
   Import import;
   import.mesh = std::move(mesh);
+  import.groups = std::move(groups_);
+  import.group_of = std::move(group_of_);
   import.format = format;
   import.counts = counts;
   import.warnings = notes.lines();

@@ -60,6 +60,11 @@ class MeshBuilder {
   // error()).
   std::uint32_t part(const std::string& object, const std::string& group, std::uint32_t material);
 
+  // A new group of the source; `parent`: an earlier one, or k_none.
+  std::uint32_t group(std::string name, std::uint32_t parent);
+  // The triangles that no group was told for yet are in this one (k_none: in none).
+  void close_group(std::uint32_t group);
+
   // Room for so many triangles.
   void reserve(std::uint64_t triangles);
 
@@ -98,6 +103,8 @@ class MeshBuilder {
   std::optional<Error> error_;
   std::map<std::tuple<std::string, std::string, std::uint32_t>, std::uint32_t> parts_;
   std::uint64_t part_name_bytes_ = 0;
+  std::vector<SourceGroup> groups_;
+  std::vector<std::uint32_t> group_of_;
   std::uint64_t faces_ = 0;  // of the file, dropped ones too
   bool numbered_ = false;    // face_of is kept
   bool with_normals_ = false;

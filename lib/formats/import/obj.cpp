@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -140,6 +141,7 @@ class ObjReader {
       return true;
     });
     if (!good) return false;
+    builder_.close_group(group_id_);
     if (!known_ && mesh_.positions.empty() && unknown_line_ != 0)
       return builder_.refuse_at({"line", unknown_line_}, unknown_ + " is not a statement of an OBJ file",
                                 "give the file the extension of its true format");
@@ -236,8 +238,30 @@ class ObjReader {
       corners_.push_back(corner);
     }
     if (!complete) return builder_.drop_face(place_, [&] { return positions_.missing(missing); });
-    if (part_ == k_none && (part_ = builder_.part(object_, group_, material_)) == k_none) return false;
-    return builder_.face(corners_, part_, place_);
+    return (part_ != k_none || find_part()) && builder_.face(corners_, part_, place_);
+  }
+
+  // Of the current object, group and material.
+  bool find_part() {
+    if ((part_ = builder_.part(object_, group_, material_)) == k_none) return false;
+    if (const std::uint32_t group = source_group(); group != group_id_) {
+      builder_.close_group(group_id_);
+      group_id_ = group;
+    }
+    return true;
+  }
+
+  // Every `o` begins an object of its own; in it, one name is one group.
+  std::uint32_t source_group() {
+    if (object_begins_) {
+      object_id_ = object_.empty() ? k_none : builder_.group(object_, k_none);
+      groups_.clear();
+      object_begins_ = false;
+    }
+    if (group_.empty()) return object_id_;
+    const auto [at, is_new] = groups_.try_emplace(group_, k_none);
+    if (is_new) at->second = builder_.group(group_, object_id_);
+    return at->second;
   }
 
   bool other(const char* p, const char* end) {
@@ -247,6 +271,7 @@ class ObjReader {
     known_ = true;
     if (word == "o") {
       object_ = to_utf8(rest_of_line(p, end));
+      object_begins_ = true;
       part_ = k_none;
     } else if (word == "g") {
       group_ = to_utf8(rest_of_line(p, end));
@@ -334,6 +359,9 @@ class ObjReader {
   std::string object_, group_;
   std::uint32_t material_ = k_none;
   std::uint32_t part_ = k_none;  // of the current object, group and material; k_none: not looked up yet
+  bool object_begins_ = false;
+  std::map<std::string, std::uint32_t> groups_;           // of the source, in the current object
+  std::uint32_t object_id_ = k_none, group_id_ = k_none;  // of the source
   std::vector<Corner> corners_;
   bool known_ = false;
   std::string unknown_;

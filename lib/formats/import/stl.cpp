@@ -65,6 +65,7 @@ class TextReader {
       const std::string_view word = next_word(p, end);
       if (!word.empty() && !statement(word, p, end)) return false;
     }
+    builder_.close_group(group_);
     return !inside_ || builder_.refuse("ends before 'endsolid'", k_copy_again);
   }
 
@@ -85,7 +86,10 @@ class TextReader {
       return good;
     }
     if (same_word(word, "solid")) {
-      part_ = builder_.part(to_utf8(rest_of_line(p, end)), "", k_none);
+      const std::string name = to_utf8(rest_of_line(p, end));
+      part_ = builder_.part(name, "", k_none);
+      builder_.close_group(group_);
+      group_ = builder_.group(name, k_none);
       inside_ = true;
       return part_ != k_none;
     }
@@ -112,7 +116,7 @@ class TextReader {
   Lines lines_;
   MeshBuilder& builder_;
   ExactWeld weld_;
-  std::uint32_t part_ = k_none;
+  std::uint32_t part_ = k_none, group_ = k_none;
   bool inside_ = false;
   std::vector<Corner> corners_;
 };

@@ -61,6 +61,7 @@ class SceneReader {
     parent_.assign(nodes_.size(), k_none);
     visited_.assign(nodes_.size(), false);
     out_.places.assign(nodes_.size(), {});
+    out_.parents.assign(nodes_.size(), k_none);
     std::vector<std::uint32_t> roots;
     if (!find_parents() || !find_roots(roots)) return false;
     for (const std::uint32_t root : roots) {
@@ -163,6 +164,7 @@ class SceneReader {
       const JsonValue node = nodes_.at(step.node);
       Affine local;
       if (!read_transform(node, builder_, local)) return false;
+      out_.parents[step.node] = step.parent;
       out_.places[step.node] = step.parent == k_none ? local : out_.places[step.parent] * local;
       std::uint32_t mesh = k_none;
       if (!node["mesh"].read_index(mesh, meshes_, builder_)) return false;

@@ -34,7 +34,8 @@ struct GltfInstance {
 };
 
 struct GltfScene {
-  std::vector<Affine> places;  // of all nodes; the identity for those that the scene does not show
+  std::vector<Affine> places;          // of all nodes; the identity for those that the scene does not show
+  std::vector<std::uint32_t> parents;  // of all nodes, as they are shown; k_none of a root
   std::vector<GltfInstance> instances;
 };
 
