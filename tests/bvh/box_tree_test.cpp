@@ -41,19 +41,30 @@ TEST(BoxTree, FlatTreeHasOneLevel) {
   EXPECT_EQ(flat_tree(1).nodes.size(), 1u);
 }
 
-TEST(BoxTree, GroupedTreeKeepsTheGroupsAndHangsLooseItemsAtTheRoot) {
-  const std::vector<std::uint32_t> group_of{7, 2, 7, k_none, 2, 9};
-  const BoxTree tree = grouped_tree(group_of);
+TEST(BoxTree, NestedTreeKeepsTheGroupsAndHangsLooseItemsAtTheRoot) {
+  // 0 holds items 0 and 2, and 1, which holds items 1 and 4; 2 holds 3, which holds nothing; 4 holds item 5
+  const std::vector<std::uint32_t> parents{k_none, 0, k_none, 2, k_none}, group_of{0, 1, 0, k_none, 1, 4};
+  const BoxTree tree = nested_tree(parents, group_of);
   expect_sound(tree, 6, 4);
-  EXPECT_EQ(tree.order, (std::vector<std::uint32_t>{1, 4, 0, 2, 5, 3}));
-  EXPECT_EQ(depth(tree), 2u);
+  EXPECT_EQ(tree.order, (std::vector<std::uint32_t>{3, 0, 2, 1, 4, 5}));
+  EXPECT_EQ(depth(tree), 3u);
+  EXPECT_EQ(nested_tree(parents, {}), BoxTree());
+}
+
+TEST(BoxTree, AChainOfAHundredThousandGroupsNeedsNoRecursion) {
+  std::vector<std::uint32_t> parents{k_none}, group_of{0};
+  for (std::uint32_t g = 1; g < 100'000; ++g) parents.push_back(g - 1), group_of.push_back(g);
+  const BoxTree tree = nested_tree(parents, group_of);
+  EXPECT_EQ(tree.order.size(), parents.size());
+  EXPECT_EQ(depth(tree), parents.size() - 1);
 }
 
 TEST(BoxTree, NodeBoxesHoldExactlyWhatIsBelow) {
   const std::vector<DoubleBox> boxes = random_boxes(40, 3);
   const std::vector<std::uint32_t> group_of{0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4,
                                             5, 5, 5, 6, 6, 6, 6, 6, 6, 6, 7, 7, 7, 7, 7, 7, 8, 8, 8, 8};
-  const BoxTree tree = grouped_tree(group_of);
+  const std::vector<std::uint32_t> parents{k_none, k_none, k_none, 0, 0, 3, 1, 1, 7};
+  const BoxTree tree = nested_tree(parents, group_of);
   const std::vector<DoubleBox> nodes = node_boxes(tree, boxes);
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     DoubleBox expected;

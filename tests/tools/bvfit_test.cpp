@@ -1,3 +1,4 @@
+#include "lib/analysis/lod/limb_chains.h"
 #include "lib/formats/atomic_file.h"
 #include "lib/formats/import/import.h"
 #include "lib/formats/tree_file.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -413,6 +415,65 @@ TEST_F(Bvfit, AScenesObjectsAreItsParts) {
   EXPECT_EQ(j["sets"][2]["points"], 4);
 }
 
+// Each node of the hierarchy as the names of the parts below it.
+std::vector<std::string> nodes_of(const json& j) {
+  std::vector<std::string> out;
+  const json& nodes = j["nodes"];
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::string below;
+    for (std::size_t k = i; k < nodes[i]["skip"]; ++k) {
+      if (nodes[k]["skip"] == k + 1)
+        below += j["sets"][nodes[k]["set"].get<std::size_t>()]["name"].get<std::string>() + ", ";
+    }
+    out.push_back(below);
+  }
+  return out;
+}
+
+TEST_F(Bvfit, TheOriginalHierarchyIsTheOneOfTheFiles) {
+  const std::string legs = "g leg\nf 1 2 3\ng seat\nf 2 3 4\n";
+  const std::string mesh =
+      save("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no chair\n" + legs + "o chair\n" + legs);
+  const json j = fitted({mesh, cube(), "--per", "parts", "--hierarchy", "original", "--quality", "fast"});
+  EXPECT_EQ(nodes_of(j), (std::vector<std::string>{
+                             "part 0 leg, part 1 seat, part 2 leg, part 3 seat, part 4, ",
+                             "part 0 leg, part 1 seat, part 2 leg, part 3 seat, ",
+                             "part 0 leg, part 1 seat, ", "part 0 leg, ", "part 1 seat, ",
+                             "part 2 leg, part 3 seat, ", "part 2 leg, ", "part 3 seat, ", "part 4, "}));
+}
+
+TEST_F(Bvfit, TheOriginalHierarchyOfATreeIsItsLimbs) {
+  const std::string oak = tree();
+  const json j = fitted({oak, "--per", "groups,segments", "--hierarchy", "original", "--quality", "fast"});
+  const auto loaded = TreeFile::open(oak)->load();
+  ASSERT_TRUE(loaded);
+  const std::vector<LimbChain> limbs = limb_chains(*loaded);
+  ASSERT_GT(limbs.size(), 3u);
+  const std::vector<std::string> nodes = nodes_of(j);
+  // What hangs on a limb: its own segments and those of all limbs that grow from it.
+  std::size_t found = 0;
+  for (std::size_t l = 0; l < limbs.size(); ++l) {
+    std::set<std::string> segments;
+    std::vector<bool> below(limbs.size());
+    for (std::size_t k = l; k < limbs.size(); ++k) {
+      below[k] = k == l || (limbs[k].parent != k_none && below[limbs[k].parent]);
+      for (const std::uint32_t s : limbs[k].segments) {
+        if (below[k]) segments.insert("segment " + std::to_string(s) + ",");
+      }
+    }
+    found += std::any_of(nodes.begin(), nodes.end(), [&](const std::string& node) {
+      std::size_t count = 0;
+      for (std::size_t at = node.find("segment "); at != std::string::npos;
+           at = node.find("segment ", at + 1))
+        ++count;
+      return count == segments.size() &&
+             std::all_of(segments.begin(), segments.end(),
+                         [&](const std::string& s) { return node.find(s) != std::string::npos; });
+    });
+  }
+  EXPECT_EQ(found, limbs.size());
+}
+
 TEST_F(Bvfit, PartsAreNumberedInTheOrderOfTheFileAndAllDrawn) {
   const std::string mesh =
       save("scene.obj", std::string("o zebra\n") + k_cube +
@@ -431,11 +492,33 @@ TEST_F(Bvfit, VerifyNamesTheAxisThatIsNotUnitAndNoMethodWhereNoneIsTold) {
   EXPECT_EQ(axis.status, 1);
   EXPECT_NE(axis.err.find("axis 1 is 2 long"), std::string::npos) << axis.err;
   EXPECT_EQ(axis.err.find("()"), std::string::npos) << axis.err;
+  const std::string skew = R"({"sets":[{"volumes":[{"type":"obb","center":[0.5,0.5,0.5],)"
+                           R"("axes":[[1,0,0],[0,1,0],[0.6,0,0.8]],"half_extents":[9,9,9]}]}]})";
+  const Outcome angle = run({"--verify", save("skew.json", skew), cube()});
+  EXPECT_EQ(angle.status, 1);
+  EXPECT_NE(angle.err.find("axes 0 and 2 are at 53.13"), std::string::npos) << angle.err;
   const std::string ball = R"({"sets":[{"volumes":[{"type":"sphere","center":[0.5,0.5,0.5],)"
                            R"("radius":0.8660254037844386}]}]})";
   const Outcome hair = run({"--verify", save("hair.json", ball), cube()});
   EXPECT_EQ(hair.status, 1);
   EXPECT_EQ(hair.err.find("by 0;"), std::string::npos) << hair.err;
+}
+
+TEST_F(Bvfit, NamesWithLineBreaksAndControlCharactersArePrintedEscaped) {
+  const std::string wild = R"(bark\u001b[2J\nsphere holds all)";
+  const json scene = json::parse(R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0,"name":")" + wild +
+                                 R"("}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                                 R"("accessors":[{"componentType":5126,"count":3,"type":"VEC3"}]})");
+  const std::string mesh = save("scene.gltf", scene.dump()), file = folder_.file("scene.json");
+  const Outcome fit = run({mesh, "--per", "parts", "-o", file});
+  ASSERT_EQ(fit.status, 0) << fit.err;
+  const Outcome verify = run({"--verify", file, mesh});
+  EXPECT_EQ(verify.status, 0) << verify.err;
+  for (const Outcome& o : {fit, verify}) {
+    EXPECT_NE(o.out.find("part 0 bark\\x1b[2J\\nsphere"), std::string::npos) << o.out;
+    EXPECT_EQ(o.out.find('\x1b'), std::string::npos);
+    EXPECT_EQ(o.out.find("\nsphere holds"), std::string::npos);
+  }
 }
 
 TEST_F(Bvfit, MistakesAreOneLineWithTheRightStatus) {
@@ -455,6 +538,11 @@ TEST_F(Bvfit, MistakesAreOneLineWithTheRightStatus) {
       {{mesh, "-o", folder_.file("x.stree")}, 1, "in a tree only"},
       {{mesh, "-o", folder_.file("x.txt")}, 2, "extension"},
       {{mesh, "--aspect-tree", "ratio9"}, 2, "character 1"},
+      {{mesh, "--sweep", "-q"}, 2, "nothing is left of --sweep"},
+      {{mesh, "--sweep", "-o", "-"}, 2, "leave -o - out"},
+      {{mesh, "--compare-hierarchies", "-q"}, 2, "add --report or --html"},
+      {{mesh, "--tune", "-q", "--report", folder_.file("r.json")}, 2, "nothing is left of --tune"},
+      {{mesh, "--sweep", "--verify", mesh}, 2, "with --verify"},
       {{folder_.file("none.obj")}, 3, "none.obj"},
       {{save("bad.xyz", "1 2 3\n1 nan 3\n")}, 1, "line 2"},
       {{save("empty.xyz", "# nothing\n")}, 1, "no point"},

@@ -189,5 +189,22 @@ TEST(ConvexHull, TheInnerBallLiesInTheHull) {
   EXPECT_EQ(inner_radius(hull_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}})), 0);
 }
 
+TEST(ConvexHull, WhenTheTimeIsUpItIsOfFewerCornersAndKnowsWhatIsOutsideThem) {
+  Random random(9);
+  Points points;
+  while (points.size() < 20'000) {
+    const Double3 p{random.around(0, 1), random.around(0, 1), random.around(0, 1)};
+    if (length(p) <= 1 && length(p) > 0.1) points.push_back(normalized(p));
+  }
+  HullOptions late;
+  late.deadline = Deadline::after(0);
+  const ConvexHull hull = convex_hull(make_point_cloud(points).value(), late);
+  EXPECT_LE(hull.vertices.size(), k_least_candidates);
+  EXPECT_GT(hull.vertices.size(), k_least_candidates / 2);
+  EXPECT_GT(hull.loss, 0);
+  EXPECT_EQ(hull.boundary.size(), points.size());
+  EXPECT_EQ(hull.indices.size(), hull.vertices.size());
+}
+
 }  // namespace
 }  // namespace copse

@@ -22,7 +22,7 @@ TEST(Cylinders, EncloseEveryAwkwardSetInTheirOrderOfSize) {
   for (const NamedPoints& set : degenerate_battery()) {
     const PointCloud cloud = make_point_cloud(set.points).value();
     const ConvexHull hull = convex_hull(cloud);
-    const Cylinder<double> line = line_fit_cylinder(cloud), centred = recentred_cylinder(cloud, hull);
+    const Cylinder<double> line = line_fit_cylinder(cloud), centred = recentred_cylinder(cloud);
     const BoundedFit<Cylinder<double>> minimal = minimal_cylinder(hull, options);
     for (const auto& c : {line, centred, minimal.volume}) {
       EXPECT_LE(outside_by(c, cloud.points), 2e-15) << set.name;

@@ -278,8 +278,11 @@ TEST(FitVolumes, MoreTimeGivesNoWorseVolumes) {
 }
 
 TEST(FitVolumes, LowerBoundsAreSharedWithinAKind) {
-  auto all = fit_all(battery::cube());
-  share_lower_bounds(all);
+  const Points points = battery::cube();
+  const auto fitter = VolumeFitter::make(points);
+  std::vector<FittedVolume> all;
+  for (const FitMethod& m : fit_methods()) all.push_back(*fitter->fit(m));
+  fitter->share_lower_bounds(all);
   double bound = -1;
   for (const FittedVolume& v : all) {
     if (v.method.kind != VolumeKind::obb) continue;
@@ -288,6 +291,25 @@ TEST(FitVolumes, LowerBoundsAreSharedWithinAKind) {
     }
     bound = v.lower_bound;
   }
+}
+
+TEST(FitVolumes, NoHullIsBuiltForMethodsThatNeedNoneAndNoByteTellsWhetherThereIsOne) {
+  const Points points = battery::turned(battery::cloud(300, {1, 0.5, 2}, 9));
+  const auto without = VolumeFitter::make(points), with = VolumeFitter::make(points);
+  with->hull();
+  std::set<VolumeKind> kinds;
+  for (const FitMethod& m : fit_methods()) {
+    if (m.on_hull) continue;
+    EXPECT_TRUE(m.quick) << m.name;
+    kinds.insert(m.kind);
+    const auto a = without->fit(m, {FitQuality::fast}), b = with->fit(m, {FitQuality::fast});
+    EXPECT_EQ(a->volume, b->volume) << name_of(m.kind) << " " << m.name;
+    EXPECT_EQ(a->lower_bound, b->lower_bound) << name_of(m.kind) << " " << m.name;
+  }
+  EXPECT_EQ(kinds.size(), k_volume_kinds);
+  EXPECT_FALSE(without->has_hull());
+  EXPECT_EQ(without->hull_seconds(), 0);
+  EXPECT_TRUE(with->has_hull());
 }
 
 TEST(FitVolumes, WhatIsNotFiniteOrNothingIsRefused) {

@@ -51,7 +51,8 @@ bool is_best(const FitMethod& m, FitQuality quality) {
   const auto all = fit_methods();
   const bool kind_has_quick =
       std::any_of(all.begin(), all.end(), [&](const FitMethod& o) { return o.kind == m.kind && o.quick; });
-  return quality == FitQuality::fast ? m.quick || !kind_has_quick : m.least;
+  // Of many points the hull alone takes longer than all closed forms.
+  return quality == FitQuality::fast ? (m.quick && !m.on_hull) || !kind_has_quick : m.least;
 }
 
 Candidate candidate_of(const FittedVolume& v) {
@@ -93,6 +94,22 @@ AspectRatios ratios_of(const VolumeFitter& fitter) {
   const auto box = fitter.fit(*quick, {.quality = FitQuality::fast});
   if (!box) return {};
   return aspect_ratios(to_double(std::get<OrientedBox<float>>(box->volume).half_extents));
+}
+
+template <class FitOne>
+Result<std::vector<SetFit>> fit_each(std::size_t count, const FitOne& fit_one, Stage& stage) {
+  std::vector<std::optional<Result<SetFit>>> results(count);
+  std::atomic<std::size_t> done = 0;
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    results[i] = fit_one(i);
+    stage.progress(static_cast<double>(++done) / static_cast<double>(count));
+  });
+  std::vector<SetFit> fits;
+  for (auto& result : results) {
+    if (!*result) return std::unexpected(result->error());
+    fits.push_back(std::move(**result));
+  }
+  return fits;
 }
 
 }  // namespace
@@ -187,21 +204,23 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
   SetFit fit;
   fit.name = set.name, fit.part = set.part, fit.index = set.index, fit.motion = set.motion;
   fit.sway = set.motion == VolumeMotion::envelope ? set.sway : 0;
-  fit.points = set.points.size(), fit.hull_points = fitter->hull().vertices.size();
-  const PointFrame& frame = fitter->hull().frame;
-  fit.hull_volume = frame.volume_out(fitter->hull().volume);
-  fit.hull_surface = fitter->hull().area * frame.scale * frame.scale;
-  fit.hull_seconds = fitter->hull_seconds();
-  fit.size = length(fitter->hull().box.extent()) * frame.scale;
+  fit.points = set.points.size();
+  fit.size = length(fitter->cloud().box.extent()) * fitter->cloud().frame.scale;
   if (choosing.criterion == Criterion::aspect || options.tune) fit.ratios = ratios_of(*fitter);
   const std::vector<FitMethod> wanted = methods_for(methods, choosing, fit.ratios);
   // What quick methods leave of their shares is the searches'.
   std::vector<std::size_t> order(wanted.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return wanted[i].quick; });
+  const auto needs_hull = std::stable_partition(
+      order.begin(), order.end(), [&](std::size_t i) { return wanted[i].quick && !wanted[i].on_hull; });
   std::vector<std::optional<FittedVolume>> fitted(wanted.size());
-  for (std::size_t k = 0; k < order.size(); ++k)
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    // All that follow work on it, so it gets more than one method's share.
+    if (order.begin() + static_cast<std::ptrdiff_t>(k) == needs_hull) fitter->hull(deadline.share(3));
     fitted[order[k]] = fitter->fit(wanted[order[k]], {options.quality, deadline.share(order.size() - k)});
+  }
+  if (fitter->has_hull()) fit.hull_points = fitter->hull().vertices.size();
+  fit.hull_seconds = fitter->hull_seconds();
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (fitted[i]) {
       fit.volumes.push_back(std::move(*fitted[i]));
@@ -210,7 +229,7 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
     }
   }
   if (fit.volumes.empty()) return refuse("", set.name + " is too large for float32", "use a smaller scale");
-  share_lower_bounds(fit.volumes);
+  fitter->share_lower_bounds(fit.volumes);
   if (options.methods == std::vector<std::string>{"best"}) keep_smallest(fit.volumes);
   fit.chosen = choose_volume(fit, choosing);
   return fit;
@@ -218,18 +237,15 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
 
 Result<std::vector<SetFit>> fit_sets(std::span<const PartSet> sets, const std::vector<FitMethod>& methods,
                                      const Options& options, const Choosing& choosing, Stage& stage) {
-  std::vector<std::optional<Result<SetFit>>> results(sets.size());
-  std::atomic<std::size_t> done = 0;
-  tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t i) {
-    results[i] = fit_set(sets[i], methods, options, choosing);
-    stage.progress(static_cast<double>(++done) / static_cast<double>(sets.size()));
-  });
-  std::vector<SetFit> fits;
-  for (auto& result : results) {
-    if (!*result) return std::unexpected(result->error());
-    fits.push_back(std::move(**result));
-  }
-  return fits;
+  return fit_each(
+      sets.size(), [&](std::size_t i) { return fit_set(sets[i], methods, options, choosing); }, stage);
+}
+
+Result<std::vector<SetFit>> fit_sets(std::size_t count, const std::function<PartSet(std::size_t)>& make,
+                                     const std::vector<FitMethod>& methods, const Options& options,
+                                     const Choosing& choosing, Stage& stage) {
+  return fit_each(
+      count, [&](std::size_t i) { return fit_set(make(i), methods, options, choosing); }, stage);
 }
 
 }  // namespace copse::bvfit

@@ -5,6 +5,8 @@
 #include "tools/bvfit/input.h"
 #include "tools/bvfit/options.h"
 
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,9 +18,9 @@ struct SetFit {
   std::uint32_t index = k_none;
   VolumeMotion motion = VolumeMotion::rest;
   float sway = 0;  // of an envelope, degrees
-  std::size_t points = 0, hull_points = 0;
-  double hull_volume = 0, hull_surface = 0;  // of a solid hull
-  double size = 0;                           // the diagonal of its box
+  std::size_t points = 0;
+  std::optional<std::size_t> hull_points;  // none: no method needed the hull
+  double size = 0;                         // the diagonal of its box
   AspectRatios ratios;
   double hull_seconds = 0;
   std::vector<FittedVolume> volumes;
@@ -42,6 +44,11 @@ Result<Choosing> choosing(const Options& options);
 // cannot hold the coordinates.
 Result<std::vector<SetFit>> fit_sets(std::span<const PartSet> sets, const std::vector<FitMethod>& methods,
                                      const Options& options, const Choosing& choosing, Stage& stage);
+
+// The same of sets that are made when their turn comes, by any thread.
+Result<std::vector<SetFit>> fit_sets(std::size_t count, const std::function<PartSet(std::size_t)>& make,
+                                     const std::vector<FitMethod>& methods, const Options& options,
+                                     const Choosing& choosing, Stage& stage);
 
 // One of them.
 Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods, const Options& options,

@@ -3,6 +3,7 @@
 #include "lib/analysis/bvh/cluster_tree.h"
 #include "lib/analysis/bvh/hilbert_rtree.h"
 #include "lib/analysis/bvh/kd_tree.h"
+#include "tools/bvfit/grouping.h"
 
 #include <algorithm>
 
@@ -11,16 +12,39 @@
 namespace copse::bvfit {
 namespace {
 
-// What is above an item in what the input came with: leaf groups, segments and cells apart; the file that a
-// part of a scene came in.
-std::vector<std::uint32_t> original_groups(std::span<const PartSet> parts,
-                                           std::span<const std::size_t> items) {
-  std::vector<std::uint32_t> out;
-  for (const std::size_t i : items) {
-    out.push_back(parts[i].part == VolumePart::whole ? parts[i].file
-                                                     : static_cast<std::uint32_t>(parts[i].part));
+// The points of all nodes together: some hours of fitting.
+constexpr std::uint64_t k_most_node_points = std::uint64_t{1} << 34;
+
+BoxTree original_tree(std::span<const PartSet> parts, std::span<const std::size_t> items,
+                      const Input& input) {
+  const Grouping grouping = input.file ? grouping_of_tree(input.tree) : grouping_of_scene(input.groups);
+  std::vector<std::uint32_t> group_of;
+  for (const std::size_t i : items) group_of.push_back(grouping.group_of(parts[i]));
+  return nested_tree(grouping.parents, group_of);
+}
+
+// Of an inner node: everything below it.
+PartSet set_of_node(const Hierarchy& h, std::uint32_t node, std::span<const PartSet> parts) {
+  const BoxNode& n = h.tree.nodes[node];
+  PartSet set;
+  set.part = VolumePart::node, set.index = node;
+  for (std::uint32_t j = n.first; j < n.first + n.count; ++j) {
+    const PartSet& part = parts[h.items[h.tree.order[j]]];
+    const std::vector<Double3>& points = part.envelope.empty() ? part.points : part.envelope;
+    set.points.insert(set.points.end(), points.begin(), points.end());
+    if (!part.envelope.empty()) set.motion = VolumeMotion::envelope, set.sway = part.sway;
   }
-  return out;
+  set.name = set_name({.part = set.part, .index = node, .motion = set.motion});
+  return set;
+}
+
+std::uint64_t points_below(const Hierarchy& h, const BoxNode& n, std::span<const PartSet> parts) {
+  std::uint64_t points = 0;
+  for (std::uint32_t j = n.first; j < n.first + n.count; ++j) {
+    const PartSet& part = parts[h.items[h.tree.order[j]]];
+    points += part.envelope.empty() ? part.points.size() : part.envelope.size();
+  }
+  return points;
 }
 
 }  // namespace
@@ -68,7 +92,7 @@ Result<Hierarchy> build_hierarchy(const std::string& kind, std::span<const PartS
   } else if (kind == "clusters") {
     h.tree = cluster_tree(boxes);
   } else if (kind == "original") {
-    h.tree = grouped_tree(original_groups(parts, h.items));
+    h.tree = original_tree(parts, h.items, input);
   } else {
     h.tree = flat_tree(static_cast<std::uint32_t>(boxes.size()));
   }
@@ -78,22 +102,23 @@ Result<Hierarchy> build_hierarchy(const std::string& kind, std::span<const PartS
 Result<void> fit_hierarchy(Hierarchy& h, std::span<const PartSet> parts,
                            const std::vector<FitMethod>& methods, const Options& options,
                            const Choosing& choosing, Stage& stage) {
-  std::vector<PartSet> sets;
+  std::vector<std::uint32_t> inner;
+  std::uint64_t points = 0;
   for (std::uint32_t i = 0; i < h.tree.nodes.size(); ++i) {
-    const BoxNode& n = h.tree.nodes[i];
-    if (n.item != k_none) continue;
-    PartSet set;
-    set.part = VolumePart::node, set.index = i;
-    for (std::uint32_t j = n.first; j < n.first + n.count; ++j) {
-      const PartSet& part = parts[h.items[h.tree.order[j]]];
-      const std::vector<Double3>& points = part.envelope.empty() ? part.points : part.envelope;
-      set.points.insert(set.points.end(), points.begin(), points.end());
-      if (!part.envelope.empty()) set.motion = VolumeMotion::envelope, set.sway = part.sway;
-    }
-    set.name = set_name({.part = set.part, .index = i, .motion = set.motion});
-    sets.push_back(std::move(set));
+    if (h.tree.nodes[i].item != k_none) continue;
+    inner.push_back(i);
+    points += points_below(h, h.tree.nodes[i], parts);
   }
-  auto fits = fit_sets(sets, methods, options, choosing, stage);
+  if (points > k_most_node_points) {
+    return refuse("",
+                  fmt::format("the nodes of its hierarchy hold {} points together, {} are allowed", points,
+                              k_most_node_points),
+                  "use another --hierarchy");
+  }
+  // A node's points are gathered when its turn comes: together they are the scene times the depth.
+  auto fits = fit_sets(
+      inner.size(), [&](std::size_t i) { return set_of_node(h, inner[i], parts); }, methods, options,
+      choosing, stage);
   if (!fits) return std::unexpected(fits.error());
   h.inner = std::move(*fits);
   stage.items(h.inner.size(), "nodes");

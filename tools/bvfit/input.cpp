@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -56,7 +55,19 @@ Result<void> add_points(const fs::path& path, Input& input, Context& context) {
   return {};
 }
 
-Result<void> add_mesh(const fs::path& path, std::uint32_t file, Input& input, Context& context) {
+// The file as a group, and in it those of the file.
+void add_groups_of(const Import& import, Input& input) {
+  const auto file = static_cast<std::uint32_t>(input.groups.size());
+  input.groups.push_back({"", k_none});
+  for (const SourceGroup& g : import.groups)
+    input.groups.push_back({g.name, g.parent == k_none ? file : file + 1 + g.parent});
+  for (std::size_t t = 0; t < import.mesh.triangles.size(); ++t) {
+    const std::uint32_t group = import.group_of.empty() ? k_none : import.group_of[t];
+    input.group_of.push_back(group == k_none ? file : file + 1 + group);
+  }
+}
+
+Result<void> add_mesh(const fs::path& path, Input& input, Context& context) {
   auto import = import_mesh(path);
   if (!import) return std::unexpected(import.error());
   for (std::size_t i = 0; i < import->files.size(); ++i) context.read(import->files[i], i == 0);
@@ -76,7 +87,6 @@ Result<void> add_mesh(const fs::path& path, std::uint32_t file, Input& input, Co
   }
   for (Part p : mesh.parts) {
     if (p.material != k_none) p.material += materials;
-    if (p.object.empty()) p.object = p.group;
     input.mesh.parts.push_back(std::move(p));
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -84,8 +94,8 @@ Result<void> add_mesh(const fs::path& path, std::uint32_t file, Input& input, Co
     for (std::uint32_t& i : v) i += static_cast<std::uint32_t>(base);
     input.mesh.triangles.push_back(v);
     input.mesh.part_of.push_back(parts + mesh.part_of[t]);
-    input.file_of.push_back(file);
   }
+  add_groups_of(*import, input);
   return {};
 }
 
@@ -111,7 +121,6 @@ Result<void> add_tree(const fs::path& path, Input& input, Context& context) {
     for (const CornerTriangle& t : triangles) {
       input.mesh.triangles.push_back({t.vertex[0] + base, t.vertex[1] + base, t.vertex[2] + base});
       input.mesh.part_of.push_back(part);
-      input.file_of.push_back(0);
     }
   };
   input.mesh.parts = {{"trunk", "", k_none}, {"leaves", "", k_none}};
@@ -239,25 +248,27 @@ Result<void> add_cells(const Input& input, Sets& sets) {
   return add_all(input, VolumePart::cell, sets);
 }
 
-// A scene of many meshes: every object, and every file where objects have no names, in the order of the
-// files.
+// A scene of many meshes: every group that has triangles of its own, and what a file has in no group, in the
+// order of their first triangles. A tree's are its trunk and its leaves.
 Result<void> add_parts(const Input& input, Sets& sets) {
   if (input.mesh.triangles.empty()) return refuse(input.name, "points have no parts", "name a mesh");
-  using Key = std::pair<std::uint32_t, std::string>;  // file and object
-  std::map<Key, std::size_t> place_of;
-  std::vector<std::pair<Key, std::vector<std::uint32_t>>> members;
+  const std::vector<std::uint32_t>& group_of = input.file ? input.mesh.part_of : input.group_of;
+  std::vector<std::size_t> place_of(input.file ? input.mesh.parts.size() : input.groups.size(), k_none);
+  std::vector<std::vector<std::uint32_t>> members;
   for (std::uint32_t t = 0; t < input.mesh.triangles.size(); ++t) {
-    Key key{input.file_of[t], input.mesh.parts[input.mesh.part_of[t]].object};
-    const auto [at, is_new] = place_of.try_emplace(key, members.size());
-    if (is_new) members.push_back({std::move(key), {}});
-    members[at->second].second.push_back(t);
+    std::size_t& place = place_of[group_of[t]];
+    if (place == k_none) place = members.size(), members.emplace_back();
+    members[place].push_back(t);
   }
   Gatherer gather(input);
   std::uint32_t index = 0;
-  for (const auto& [key, triangles] : members) {
+  for (const std::vector<std::uint32_t>& triangles : members) {
     PartSet set;
-    set.name = fmt::format("part {}", index), set.index = index++, set.file = key.first;
-    if (!key.second.empty()) set.name += " " + key.second;
+    set.name = fmt::format("part {}", index), set.index = index++;
+    if (!input.file) set.group = input.group_of[triangles[0]];
+    const std::string& own = input.file ? std::string() : input.groups[set.group].name;
+    const std::string& name = own.empty() ? input.mesh.parts[input.mesh.part_of[triangles[0]]].object : own;
+    if (!name.empty()) set.name += " " + name;
     for (const std::uint32_t t : triangles) gather.add(input.mesh.triangles[t], set);
     gather.finish(std::move(set), sets);
   }
@@ -288,14 +299,13 @@ const std::vector<Per>& pers() {
 Result<Input> read_input(const std::vector<fs::path>& paths, Context& context) {
   Input input;
   Stage stage = context.stage("read");
-  for (std::uint32_t i = 0; i < paths.size(); ++i) {
-    const fs::path& path = paths[i];
+  for (const fs::path& path : paths) {
     if (is_tree(path) && paths.size() > 1) {
       return fail(Fault::usage, path.string(), "a tree is fitted alone", "run bvfit once a tree");
     }
     const Result<void> ok = is_tree(path)                  ? add_tree(path, input, context)
                             : extension_of(path) == ".xyz" ? add_points(path, input, context)
-                                                           : add_mesh(path, i, input, context);
+                                                           : add_mesh(path, input, context);
     if (!ok) return std::unexpected(ok.error());
   }
   input.name = paths.front().string();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/formats/foliage_cells.h"
+#include "lib/formats/import/import.h"
 #include "lib/formats/mesh.h"
 #include "lib/formats/result.h"
 #include "lib/formats/tree_file.h"
@@ -18,10 +19,12 @@ namespace copse::bvfit {
 
 struct Input {
   std::string name;  // for messages and the JSON: the first file, "(+2 more)" where there are several
-  std::vector<Double3> points;         // every vertex; of a mesh as float32, relative to the origin of a tree
-  Mesh mesh;                           // its triangles over `points`; none for points alone
-  std::vector<std::uint32_t> file_of;  // of each triangle
-  std::optional<TreeFile> file;        // of a tree
+  std::vector<Double3> points;  // every vertex; of a mesh as float32, relative to the origin of a tree
+  Mesh mesh;                    // its triangles over `points`; none for points alone
+  // Of a scene of meshes: what its files group, each file at the top, and in which group each triangle is.
+  std::vector<SourceGroup> groups;
+  std::vector<std::uint32_t> group_of;
+  std::optional<TreeFile> file;  // of a tree
   Tree tree;
   FoliageCells cells;              // that the tree came with
   std::uint32_t trunk_points = 0;  // of a tree: the trunk's vertices come first
@@ -39,7 +42,7 @@ struct PartSet {
   std::vector<Double3> points;
   std::vector<std::uint32_t> source;  // of each point in Input::points; empty: the same
   std::vector<Triangle> triangles;    // over `points`; may be empty
-  std::uint32_t file = 0;             // of a part of a scene: which input it came in
+  std::uint32_t group = k_none;       // of a part of a scene: the Input::groups that it is
   std::vector<Double3> envelope;      // with --sway: points round everywhere that it can be; else empty
 };
 

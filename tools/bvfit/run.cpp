@@ -24,6 +24,26 @@ bool is_tree_name(const std::filesystem::path& path) {
   return path.extension() == ".tree" || path.extension() == ".stree";
 }
 
+// What only a person reads must have somewhere to go.
+Result<void> check_printed(const Options& options, const CommonOptions& common) {
+  const char* name = options.sweep                 ? "--sweep"
+                     : options.compare_hierarchies ? "--compare-hierarchies"
+                     : options.tune                ? "--tune"
+                                                   : nullptr;
+  if (name == nullptr) return {};
+  const char* instead = !options.verify.empty()     ? "--verify"
+                        : common.quiet              ? "-q"
+                        : is_stdout(options.output) ? "-o -"
+                                                    : nullptr;
+  if (instead == nullptr) return {};
+  const bool reported = options.verify.empty() && (!common.report.empty() || !common.html.empty());
+  if (reported && !options.tune) return {};
+  return fail(Fault::usage, "", fmt::format("with {} nothing is left of {}", instead, name),
+              options.tune || !options.verify.empty()
+                  ? fmt::format("leave {} out", instead)
+                  : fmt::format("add --report or --html, or leave {} out", instead));
+}
+
 Result<void> check_options(const Options& options) {
   if (options.output.empty() || is_stdout(options.output) || is_tree_name(options.output) ||
       options.output.extension() == ".json")
@@ -173,6 +193,7 @@ Result<std::string> extras(const Work& work, const Options& options, Context& co
 
 Result<void> run(const Options& options, Context& context) {
   if (auto ok = check_options(options); !ok) return ok;
+  if (auto ok = check_printed(options, context.options()); !ok) return ok;
   if (!options.verify.empty()) return verify_volumes(options, context);
   auto methods = wanted_methods(options);
   if (!methods) return std::unexpected(methods.error());

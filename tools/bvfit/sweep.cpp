@@ -1,5 +1,7 @@
 #include "tools/bvfit/sweep.h"
 
+#include "lib/formats/printable.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -29,6 +31,7 @@ std::optional<Run> run_of(const PartSet& set, const FitMethod& method, FitQualit
   for (int i = 0; i < k_repeats && (i == 0 || run.seconds <= k_quick); ++i) {
     const auto fitter = VolumeFitter::make(set.points, set.triangles);
     if (!fitter) return std::nullopt;
+    if (method.on_hull) fitter->hull();  // the limit is the fit's alone
     const auto fit = fitter->fit(method, {quality, limit > 0 ? Deadline::after(limit) : Deadline()});
     if (!fit) return std::nullopt;
     if (fit->seconds >= run.seconds) continue;
@@ -80,8 +83,8 @@ Result<std::string> sweep(const PartSet& set, const std::vector<FitMethod>& meth
   }
   std::string out = fmt::format(
       "{}: error against time, on {} points\n\n    {:<10} {:<17} {:<12} {:>10} {:>10} {:>13} {:>13}\n",
-      set.name, set.points.size(), "type", "method", "quality", "fit, ms", "in all, ms", "over best",
-      "over bound");
+      printable(set.name), set.points.size(), "type", "method", "quality", "fit, ms", "in all, ms",
+      "over best", "over bound");
   Table table{"Error against time",
               {"type", "method", "quality", "fit, ms", "with the hull, ms", "over best", "over bound"},
               {}};

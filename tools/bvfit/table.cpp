@@ -1,5 +1,7 @@
 #include "tools/bvfit/table.h"
 
+#include "lib/formats/printable.h"
+
 #include <algorithm>
 #include <array>
 
@@ -32,8 +34,10 @@ std::string points_text(std::span<const Double3> points) {
 }
 
 std::string set_text(const SetFit& set) {
-  std::string out = fmt::format("{}: {} points, {} on the hull ({})\n\n", set.name, set.points,
-                                set.hull_points, seconds_text(set.hull_seconds));
+  std::string out = fmt::format("{}: {} points", printable(set.name), set.points);
+  if (set.hull_points)
+    out += fmt::format(", {} on the hull ({})", *set.hull_points, seconds_text(set.hull_seconds));
+  out += "\n\n";
   out += fmt::format("    {:<10} {:<17} {:>12} {:>12} {:>9}  {:<9}\n", "type", "method", "volume",
                      "over bound", "time", "certified");
   for (std::size_t i = 0; i < set.volumes.size(); ++i) {
@@ -101,7 +105,7 @@ std::vector<std::string> row_of(const SetFit& set, std::size_t i) {
 std::string table_text(const Input& input, std::span<const SetFit> sets) {
   const std::size_t full =
       sets.size() <= k_sets_in_full ? sets.size() : std::min<std::size_t>(3, sets.size());
-  std::string out = fmt::format("{}\n\n", input.name);
+  std::string out = fmt::format("{}\n\n", printable(input.name));
   for (const SetFit& set : sets.first(full)) out += set_text(set);
   if (full < sets.size()) out += summary_text(sets.subspan(full));
   return out;

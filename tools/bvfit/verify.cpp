@@ -3,10 +3,12 @@
 #include "lib/analysis/volumes/certify.h"
 #include "lib/analysis/volumes/volume_measures.h"
 #include "lib/formats/mapped_file.h"
+#include "lib/formats/printable.h"
 #include "tools/bvfit/volumes_json.h"
 
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
@@ -125,8 +127,8 @@ std::string distance_text(double d) {
   return std::isfinite(d) ? fmt::format("{:.3g}", d) : "no distance that can be told";
 }
 
-// The axis of a box or an ellipsoid that is not unit, which makes it hold nothing; empty when all are.
-std::string false_axis(const Volume<double>& volume) {
+// What is wrong with the axes of a box or an ellipsoid, which makes it hold nothing; empty when nothing is.
+std::string false_axes(const Volume<double>& volume) {
   constexpr double k_rounding = 1e-6;  // as certify takes it
   return std::visit(
       [](const auto& v) -> std::string {
@@ -134,6 +136,13 @@ std::string false_axis(const Volume<double>& volume) {
           for (std::size_t i = 0; i < v.axes.size(); ++i) {
             if (const double square = dot(v.axes[i], v.axes[i]); !(std::abs(square - 1) <= k_rounding))
               return fmt::format("axis {} is {:.9g} long and not 1", i, std::sqrt(square));
+          }
+          for (std::size_t i = 0; i < v.axes.size(); ++i) {
+            const std::size_t j = (i + 1) % v.axes.size();
+            const double cosine = dot(v.axes[i], v.axes[j]);
+            if (std::abs(cosine) <= k_rounding) continue;
+            return fmt::format("axes {} and {} are at {:.9g} degrees and not at right angles", std::min(i, j),
+                               std::max(i, j), std::acos(cosine) * 180 / std::numbers::pi);
           }
         }
         return "";
@@ -148,7 +157,8 @@ std::string name_of_set(const ReadSet& set) {
 }
 
 std::string line_of(const Verdict& v) {
-  const std::string what = fmt::format("{:<16} {:<10} {:<16}", v.set, v.volume->type, v.volume->method);
+  const std::string what = fmt::format("{:<16} {:<10} {:<16}", printable(v.set), printable(v.volume->type),
+                                       printable(v.volume->method));
   if (v.certificate.holds()) return fmt::format("{} holds all {} points\n", what, v.certificate.points);
   return fmt::format("{} leaves {} of {} points outside, the worst by {}\n", what, v.certificate.outside,
                      v.certificate.points, distance_text(v.certificate.excess));
@@ -213,8 +223,9 @@ Result<void> verify_volumes(const Options& options, Context& context) {
   const std::string which =
       fmt::format("{} of {} volumes leave points outside; the worst is {}{} of '{}'", failed, judged,
                   worst.volume->type, method_text(*worst.volume), worst.set);
-  if (const std::string axis = false_axis(worst.volume->volume); !axis.empty())
-    return refuse(options.verify.string(), fmt::format("{}: its {}", which, axis), "write unit axes");
+  if (const std::string axes = false_axes(worst.volume->volume); !axes.empty())
+    return refuse(options.verify.string(), fmt::format("{}: its {}", which, axes),
+                  "write unit axes at right angles");
   return refuse(
       options.verify.string(),
       fmt::format("{}: point {} ({}, {}, {}) lies outside by {}", which, worst.certificate.worst,

@@ -234,11 +234,13 @@ bool find_node_sets(ReadVolumes& v) {
 
 std::string volumes_json(const Input& input, std::span<const SetFit> sets, std::span<const VolumeNode> nodes,
                          const Options& options) {
-  std::size_t hull_points = sets.empty() ? 0 : sets.front().hull_points;
+  const auto hull_points = [](const SetFit& set) {
+    return set.hull_points ? std::to_string(*set.hull_points) : "null";
+  };
   std::string out =
       fmt::format("{{\"schema\":\"copse.volumes/1\",\"input\":{},\"points\":{},\"hull_points\":{},\n",
                   Json(input.name).dump(-1, ' ', false, Json::error_handler_t::replace), input.points.size(),
-                  hull_points);
+                  sets.empty() ? "null" : hull_points(sets.front()));
   if (input.file && input.tree.header.origin != Double3{})
     out += fmt::format(" \"origin\":{},\n", list(input.tree.header.origin).dump());
   out += " \"sets\":[\n";
@@ -248,7 +250,7 @@ std::string volumes_json(const Input& input, std::span<const SetFit> sets, std::
         "  "
         "{{\"name\":{},{}\"points\":{},\"hull_points\":{},\"chosen\":{},\"criterion\":\"{}\",\"volumes\":[\n",
         Json(set.name).dump(-1, ' ', false, Json::error_handler_t::replace), motion_json(set), set.points,
-        set.hull_points, set.chosen, criterion_name(options.choose));
+        hull_points(set), set.chosen, criterion_name(options.choose));
     for (std::size_t v = 0; v < set.volumes.size(); ++v) {
       out += "   " + volume_json(set.volumes[v], options.times).dump() +
              (v + 1 < set.volumes.size() ? ",\n" : "\n");

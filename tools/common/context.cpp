@@ -2,6 +2,7 @@
 
 #include "lib/formats/export/html.h"
 #include "lib/formats/hash.h"
+#include "lib/formats/printable.h"
 #include "tools/common/depfile.h"
 
 #include <algorithm>
@@ -116,7 +117,7 @@ void ToolContext::warn(std::string_view message) {
 }
 
 void ToolContext::print(std::string_view text) {
-  if (printed_) printed_ = write_stdout(text);
+  if (printed_) printed_ = write_stdout(printable_lines(text));
 }
 
 void ToolContext::read(const fs::path& path, bool is_input) {

@@ -1,7 +1,6 @@
 #include "lib/analysis/bvh/box_tree.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 namespace copse {
@@ -53,20 +52,25 @@ BoxTree flat_tree(std::uint32_t items) {
   return flatten(inner, items, items);
 }
 
-BoxTree grouped_tree(std::span<const std::uint32_t> group_of) {
+BoxTree nested_tree(std::span<const std::uint32_t> parents, std::span<const std::uint32_t> group_of) {
   const auto items = static_cast<std::uint32_t>(group_of.size());
-  std::map<std::uint32_t, std::vector<std::uint32_t>> groups;
-  for (std::uint32_t i = 0; i < items; ++i) groups[group_of[i]].push_back(i);
-  std::vector<std::vector<std::uint32_t>> inner(1);
-  for (auto& [label, members] : groups) {
-    if (label == k_none) {
-      inner[0].insert(inner[0].end(), members.begin(), members.end());
-    } else {
-      inner[0].push_back(items + static_cast<std::uint32_t>(inner.size()));
-      inner.push_back(std::move(members));
-    }
+  const auto groups = static_cast<std::uint32_t>(parents.size());
+  std::vector<std::vector<std::uint32_t>> inner(groups + 1);  // the last is the root
+  const auto list_of = [&](std::uint32_t group) -> auto& {
+    return inner[group == k_none ? groups : group];
+  };
+  std::vector<bool> holds(groups);
+  for (std::uint32_t i = 0; i < items; ++i) {
+    list_of(group_of[i]).push_back(i);
+    if (group_of[i] != k_none) holds[group_of[i]] = true;
   }
-  return flatten(inner, items, items);
+  for (std::uint32_t g = groups; g-- > 0;) {
+    if (holds[g] && parents[g] != k_none) holds[parents[g]] = true;
+  }
+  for (std::uint32_t g = 0; g < groups; ++g) {
+    if (holds[g]) list_of(parents[g]).push_back(items + g);
+  }
+  return flatten(inner, items, items + groups);
 }
 
 std::vector<DoubleBox> node_boxes(const BoxTree& tree, std::span<const DoubleBox> boxes) {

@@ -37,9 +37,10 @@ BoxTree flatten(std::span<const std::vector<std::uint32_t>> inner, std::uint32_t
 // A root with all items below it.
 BoxTree flat_tree(std::uint32_t items);
 
-// The grouping that the items came with: a root, a node a group (by ascending label), its items.
-// group_of[i]: any label; k_none hangs an item at the root.
-BoxTree grouped_tree(std::span<const std::uint32_t> group_of);
+// The grouping that the items came with, however deep: a root, below it the groups, in each its items and
+// then the groups in it, both in their order. parents: of each group an earlier one, k_none at the root.
+// group_of: of each item, k_none at the root. Groups without items below them are left out. O(nodes).
+BoxTree nested_tree(std::span<const std::uint32_t> parents, std::span<const std::uint32_t> group_of);
 
 // The box of everything below each node. boxes: one an item. O(nodes).
 std::vector<DoubleBox> node_boxes(const BoxTree& tree, std::span<const DoubleBox> boxes);

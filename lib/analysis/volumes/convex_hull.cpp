@@ -159,11 +159,25 @@ std::vector<Double3> joined(std::vector<Double3> a, const std::vector<Double3>& 
   return distinct_points(a);
 }
 
+// How many corners the time allows for: about half of it goes to mending a kernel.
+std::size_t affordable(const HullOptions& options) {
+  constexpr double k_seconds = 2 * 10e-6;  // a corner
+  const double corners = options.deadline.seconds_left() / k_seconds;
+  if (corners >= static_cast<double>(options.max_candidates)) return options.max_candidates;
+  return std::min(options.max_candidates, std::max(k_least_candidates, static_cast<std::size_t>(corners)));
+}
+
 // What a kernel has left outside joins it: all of it where that is not too much, else what is farthest out of
 // each face, a few times. What is outside then is told.
-void settle_kernel(std::vector<Double3> points, std::size_t most, ConvexHull& hull) {
+void settle_kernel(std::vector<Double3> points, std::size_t most, const Deadline& deadline,
+                   ConvexHull& hull) {
   constexpr int k_rounds = 6;
   for (int round = 1;; ++round) {
+    if (deadline.has_passed()) {
+      hull.boundary = std::move(points);
+      hull.loss = std::numeric_limits<double>::infinity();
+      return;
+    }
     const HullLoss loss = hull_loss(hull, points);
     points = joined(loss.outside, hull.vertices);
     if (points.size() <= most) {
@@ -210,7 +224,8 @@ ConvexHull convex_hull(const PointCloud& cloud, const HullOptions& options) {
   ConvexHull hull;
   hull.frame = cloud.frame;
   hull.box = cloud.box;
-  HullCandidates candidates = hull_candidates(cloud.points, options.max_candidates);
+  const std::size_t most = affordable(options);
+  HullCandidates candidates = hull_candidates(cloud.points, most);
   find_dimension(candidates.all, hull);
   if (hull.dimension == 0) hull.vertices = {candidates.all.front()};
   if (hull.dimension == 1) hull_of_line(candidates.all, hull);
@@ -218,7 +233,7 @@ ConvexHull convex_hull(const PointCloud& cloud, const HullOptions& options) {
   if (hull.dimension == 3) hull_of_space(candidates.chosen, hull);
   hull.boundary = hull.vertices;
   if (hull.dimension == 3 && candidates.chosen.size() < candidates.all.size())
-    settle_kernel(std::move(candidates.all), options.max_candidates, hull);
+    settle_kernel(std::move(candidates.all), most, options.deadline, hull);
   find_indices(cloud.points, hull);
   return hull;
 }

@@ -8,6 +8,7 @@
 // `boundary`, and lower bounds found on `vertices` hold for all points, because they are some of them.
 #pragma once
 
+#include "lib/analysis/volumes/deadline.h"
 #include "lib/analysis/volumes/point_cloud.h"
 
 #include <array>
@@ -40,13 +41,20 @@ struct ConvexHull {
 
   // Points whose hull holds every point of the cloud: `vertices`, or with a kernel all that are outside it.
   std::vector<Double3> boundary;
-  double loss = 0;  // how far a point can be outside the hull of `vertices`; 0: nothing was given away
+  // How far a point can be outside the hull of `vertices`. 0: nothing was given away; infinity: the time was
+  // up before it was known.
+  double loss = 0;
 
   DoubleBox box;  // of all points
 };
 
+inline constexpr std::size_t k_least_candidates = 1000;  // some 10 ms
+
 struct HullOptions {
   std::size_t max_candidates = 10'000;  // more than these give a kernel of at most as many
+  // The kernel is so small that the hull is likely to be there by then, though not below k_least_candidates:
+  // passes over all points and that much are not cut short.
+  Deadline deadline = {};
 };
 
 // Not one byte depends on the order or repetition of the points, except `indices` (the first of equal

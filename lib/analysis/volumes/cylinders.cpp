@@ -339,8 +339,8 @@ Cylinder<double> line_fit_cylinder(const PointCloud& cloud) {
   return cylinder_of(t);
 }
 
-Cylinder<double> recentred_cylinder(const PointCloud& cloud, const ConvexHull& hull) {
-  return cylinder_along(hull.boundary, principal_axes(cloud.points).axes[0]);
+Cylinder<double> recentred_cylinder(const PointCloud& cloud) {
+  return cylinder_along(cloud.points, principal_axes(cloud.points).axes[0]);
 }
 
 BoundedFit<Cylinder<double>> minimal_cylinder(const ConvexHull& hull, const MinimalCylinderOptions& options) {

@@ -21,9 +21,8 @@ namespace copse {
 // direction must be told by its ends.
 Cylinder<double> line_fit_cylinder(const PointCloud& cloud);
 
-// In the same direction, about the smallest circle round the projected points. Never larger. (Round the hull,
-// which holds all that touches; `cloud` gives the direction.)
-Cylinder<double> recentred_cylinder(const PointCloud& cloud, const ConvexHull& hull);
+// In the same direction, about the smallest circle round the projected points. Never larger.
+Cylinder<double> recentred_cylinder(const PointCloud& cloud);
 
 struct MinimalCylinderOptions {
   // Stop when the volume is proven to be at most (1 + gap) times the least. What the first search has missed

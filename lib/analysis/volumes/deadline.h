@@ -2,8 +2,10 @@
 // nothing does.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <limits>
 
 namespace copse {
 
@@ -26,6 +28,11 @@ class Deadline {
     const auto now = Clock::now();
     d.at_ = now + (at_ > now ? at_ - now : Clock::duration(0)) / static_cast<Clock::rep>(parts);
     return d;
+  }
+  // Infinite without one, 0 when it has passed.
+  double seconds_left() const {
+    if (!is_set()) return std::numeric_limits<double>::infinity();
+    return std::max(0.0, std::chrono::duration<double>(at_ - Clock::now()).count());
   }
   bool is_set() const { return at_ != Clock::time_point::max(); }
   bool has_passed() const { return is_set() && Clock::now() >= at_; }

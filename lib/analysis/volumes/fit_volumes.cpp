@@ -35,13 +35,24 @@ struct VolumeFitter::Prepared {
   std::span<const Double3> points;
   std::span<const std::array<std::uint32_t, 3>> triangles;
   PointCloud cloud;
-  ConvexHull hull;
-  std::vector<Double3> corners;  // of the hull, as the caller gave them
-  double hull_seconds = 0;
+  mutable std::optional<ConvexHull> convex;  // once a method needs it
+  mutable std::vector<Double3> corners;      // of the hull, as the caller gave them
+  mutable double hull_seconds = 0;
   mutable std::optional<Capsule<double>> capsule;   // the least one, once it is known
   mutable std::vector<std::uint32_t> ball_support;  // of the minimal sphere, among the points
   // What the methods that are no searches for the least gave, by entry: each is asked for several times.
   mutable std::vector<std::optional<BoundedFit<Volume<double>>>> cheap;
+
+  const ConvexHull& hull(const Deadline& deadline = {}) const {
+    if (convex) return *convex;
+    const double start = now();
+    HullOptions options;
+    options.deadline = deadline;
+    convex = convex_hull(cloud, options);
+    for (const std::uint32_t i : convex->indices) corners.push_back(points[i]);
+    hull_seconds = now() - start;
+    return *convex;
+  }
 };
 
 namespace {
@@ -97,13 +108,13 @@ Options limits(const FitOptions& how, double gap) {
 }
 
 Fit least_box(const Prepared& p, const FitOptions& how) {
-  return bounded(minimal_box(p.hull, limits<MinimalBoxOptions>(how, k_box_gap)));
+  return bounded(minimal_box(p.hull(), limits<MinimalBoxOptions>(how, k_box_gap)));
 }
 Fit projected_circle(const Prepared& p, const FitOptions& how);
 BoundedFit<Capsule<double>> capsule_with(const Prepared& p, const SweptBoundOptions& options) {
   // One start among many: most of the time is the search's own.
   const Fit circle = projected_circle(p, {FitQuality::balanced, options.deadline.share(4)});
-  return minimal_capsule(p.hull, std::get<Capsule<double>>(circle.volume), options);
+  return minimal_capsule(p.hull(), std::get<Capsule<double>>(circle.volume), options);
 }
 BoundedFit<Capsule<double>> capsule_of(const Prepared& p, const FitOptions& how) {
   return capsule_with(p, limits<SweptBoundOptions>(how, k_capsule_gap));
@@ -116,7 +127,7 @@ Capsule<double> unproven_capsule(const Prepared& p, const Deadline& deadline) {
 // The lozenge starts from the capsule, which no lozenge need be worse than.
 Fit least_lozenge(const Prepared& p, const FitOptions& how) {
   if (!p.capsule) p.capsule = unproven_capsule(p, how.deadline.share(3));
-  return bounded(minimal_lozenge(p.hull, *p.capsule, limits<SweptBoundOptions>(how, k_lozenge_gap)));
+  return bounded(minimal_lozenge(p.hull(), *p.capsule, limits<SweptBoundOptions>(how, k_lozenge_gap)));
 }
 Fit least_capsule(const Prepared& p, const FitOptions& how) {
   BoundedFit<Capsule<double>> fit = capsule_of(p, how);
@@ -124,13 +135,13 @@ Fit least_capsule(const Prepared& p, const FitOptions& how) {
   return bounded(std::move(fit));
 }
 Fit least_cylinder(const Prepared& p, const FitOptions& how) {
-  return bounded(minimal_cylinder(p.hull, limits<MinimalCylinderOptions>(how, k_cylinder_gap)));
+  return bounded(minimal_cylinder(p.hull(), limits<MinimalCylinderOptions>(how, k_cylinder_gap)));
 }
 
 Fit least_ellipsoid(const Prepared& p, const FitOptions& how) {
   MinimalEllipsoidOptions options;
   options.deadline = how.deadline;
-  return bounded(minimal_ellipsoid(p.hull, options));
+  return bounded(minimal_ellipsoid(p.hull(), options));
 }
 
 // The surface's own triangles where there are some, else the vertices alone.
@@ -150,16 +161,15 @@ const std::vector<Entry>& entries() {
       {{K::sphere, "minimal", true, true}, ball_of},
       {{K::obb, "gaussian", true, false}, [](P p, O) { return plain(gaussian_box(p.cloud)); }},
       {{K::obb, "surface", true, false}, surface_box_of},
-      {{K::obb, "hull", true, false, true}, [](P p, O) { return plain(hull_surface_box(p.hull)); }},
+      {{K::obb, "hull", true, false, true}, [](P p, O) { return plain(hull_surface_box(p.hull())); }},
       {{K::obb, "minimal", false, true, true}, least_box},
       {{K::capsule, "least-squares", true, false},
        [](P p, O) { return plain(least_squares_capsule(p.cloud.points)); }},
       {{K::capsule, "projected-circle", false, false, true},
-       [](P p, O how) { return plain(projected_circle_capsule(p.hull.vertices, how.deadline)); }},
+       [](P p, O how) { return plain(projected_circle_capsule(p.hull().vertices, how.deadline)); }},
       {{K::capsule, "minimal", false, true, true}, least_capsule},
       {{K::cylinder, "line-fit", true, false}, [](P p, O) { return plain(line_fit_cylinder(p.cloud)); }},
-      {{K::cylinder, "recentred", true, false, true},
-       [](P p, O) { return plain(recentred_cylinder(p.cloud, p.hull)); }},
+      {{K::cylinder, "recentred", true, false}, [](P p, O) { return plain(recentred_cylinder(p.cloud)); }},
       {{K::cylinder, "minimal", false, true, true}, least_cylinder},
       {{K::lozenge, "gaussian", true, false}, [](P p, O) { return plain(gaussian_lozenge(p.cloud.points)); }},
       {{K::lozenge, "minimal", false, true, true}, least_lozenge},
@@ -167,9 +177,9 @@ const std::vector<Entry>& entries() {
        [](P p, O) { return plain(axis_aligned_ellipsoid(p.cloud)); }},
       {{K::ellipsoid, "gaussian", true, false}, [](P p, O) { return plain(gaussian_ellipsoid(p.cloud)); }},
       {{K::ellipsoid, "minimal", false, true, true}, least_ellipsoid},
-      {{K::kdop, "14", true, false, true}, nullptr},
-      {{K::kdop, "18", true, false, true}, nullptr},
-      {{K::kdop, "26", true, true, true}, nullptr},
+      {{K::kdop, "14", true, false}, nullptr},
+      {{K::kdop, "18", true, false}, nullptr},
+      {{K::kdop, "26", true, true}, nullptr},
   };
   return k_entries;
 }
@@ -185,10 +195,15 @@ std::optional<int> planes_of(std::string_view name) {
 // Unique for its directions: nothing is searched. Its own volume is its bound, less what its facets' corners
 // lose to rounding.
 Fit slabs_of(const Prepared& p, int k) {
-  Kdop<double> volume = fit_kdop(p.hull.boundary, kdop_normals(k));
+  Kdop<double> volume = fit_kdop(p.cloud.points, kdop_normals(k));
   const VolumeMeasures m = measures_of(volume);
-  const double lost = 1e-13 * length(p.hull.box.extent()) * m.surface;
+  const double lost = 1e-13 * length(p.cloud.box.extent()) * m.surface;
   return {volume, std::max(0.0, m.volume * (1 - 1e-9) - lost)};
+}
+
+// In the cloud: nothing that holds the hull is smaller, of whatever kind.
+double bound_of_hull(const Prepared& p) {
+  return p.hull().volume * (1 - 1e-9);
 }
 
 bool is_cheap(const FitMethod& method) {
@@ -294,25 +309,27 @@ double exact_gap(VolumeKind kind) {
 
 std::optional<FitMethod> kdop_method(std::string_view k) {
   if (!planes_of(k)) return std::nullopt;
-  return FitMethod{VolumeKind::kdop, std::string(k), true, false, true};
+  return FitMethod{VolumeKind::kdop, std::string(k), true, false};
 }
 
 Result<VolumeFitter> VolumeFitter::make(std::span<const Double3> points,
                                         std::span<const std::array<std::uint32_t, 3>> triangles) {
-  const double start = now();
   auto cloud = make_point_cloud(points);
   if (!cloud) return std::unexpected(cloud.error());
   auto prepared = std::make_shared<Prepared>();
   prepared->points = points, prepared->triangles = triangles;
   prepared->cloud = std::move(*cloud);
-  prepared->hull = convex_hull(prepared->cloud);
-  for (const std::uint32_t i : prepared->hull.indices) prepared->corners.push_back(points[i]);
-  prepared->hull_seconds = now() - start;
   return VolumeFitter(std::move(prepared));
 }
 
-const ConvexHull& VolumeFitter::hull() const {
-  return prepared_->hull;
+const PointCloud& VolumeFitter::cloud() const {
+  return prepared_->cloud;
+}
+const ConvexHull& VolumeFitter::hull(const Deadline& deadline) const {
+  return prepared_->hull(deadline);
+}
+bool VolumeFitter::has_hull() const {
+  return prepared_->convex.has_value();
 }
 double VolumeFitter::hull_seconds() const {
   return prepared_->hull_seconds;
@@ -320,10 +337,14 @@ double VolumeFitter::hull_seconds() const {
 
 std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const FitOptions& options) const {
   const Prepared& p = *prepared_;
+  if (method.on_hull) p.hull(options.deadline.share(2));
   const double start = now();
   const Fit fit = fit_by(method, p, options);
   const double fitted = now();
-  const std::span<const Double3> corners = p.hull.loss == 0 ? std::span<const Double3>(p.corners) : p.points;
+  // By the method alone: what is stored must not depend on what else was asked for.
+  const bool by_corners = method.on_hull && p.hull().loss == 0;
+  const std::span<const Double3> corners = by_corners ? std::span<const Double3>(p.corners) : p.points;
+  const PointFrame& frame = p.cloud.frame;
   FittedVolume out;
   out.method = method;
   bool held = false;
@@ -335,11 +356,11 @@ std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const Fit
     held = true;
     out.volume = std::move(enclosed->volume), out.certified = enclosed->certified, out.measures = measures;
   };
-  keep_if_less(placed(fit.volume, p.hull.frame));
+  keep_if_less(placed(fit.volume, frame));
   // Rounding outward can turn the order, most where there is no thickness. Far larger ones need no rounding.
   constexpr double k_worth = 2;
   for (const Volume<double>& cheaper : cheaper_fits(method, p, options)) {
-    const Volume<double> v = placed(cheaper, p.hull.frame);
+    const Volume<double> v = placed(cheaper, frame);
     const double volume = measures_of(v).volume;
     if (held && volume > out.measures.volume * k_worth) continue;
     keep_if_less(*as_kind(v, method.kind));
@@ -355,17 +376,18 @@ std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const Fit
     std::sort(out.support.begin(), out.support.end(), lexicographically_less);
   }
   // A whisker below, so that the roundings of the bound itself cannot put it above the truth.
-  // The hull's volume is a bound for every kind.
-  const double bound = std::max(fit.lower_bound * (1 - 1e-12), p.hull.volume * (1 - 1e-9));
-  out.lower_bound = std::min(p.hull.frame.volume_out(bound), out.measures.volume);
+  const double bound = std::max(fit.lower_bound * (1 - 1e-12), method.on_hull ? bound_of_hull(p) : 0);
+  out.lower_bound = std::min(frame.volume_out(bound), out.measures.volume);
   out.seconds = fitted - start;
   out.certify_seconds = now() - fitted;
   return out;
 }
 
-void share_lower_bounds(std::span<FittedVolume> of_one_set) {
-  for (FittedVolume& a : of_one_set) {
-    for (const FittedVolume& b : of_one_set) {
+void VolumeFitter::share_lower_bounds(std::span<FittedVolume> volumes) const {
+  const double hull = has_hull() ? prepared_->cloud.frame.volume_out(bound_of_hull(*prepared_)) : 0;
+  for (FittedVolume& a : volumes) {
+    a.lower_bound = std::max(a.lower_bound, std::min(hull, a.measures.volume));
+    for (const FittedVolume& b : volumes) {
       if (a.method.kind == b.method.kind && a.method.kind != VolumeKind::kdop)
         a.lower_bound = std::max(a.lower_bound, b.lower_bound);
     }

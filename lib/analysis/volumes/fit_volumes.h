@@ -1,7 +1,8 @@
 // fit_volumes: every method by its name, from points to a certified volume in float32.
 //
-// One fitter prepares a set of points once (frame, hull) for all methods that are asked of it. What a method
-// gives is rounded outward and proven on all points (enclose.h), so every result contains them as stored.
+// One fitter prepares a set of points once for all methods that are asked of it: the frame, and the hull when
+// a method first needs it. What a method gives is rounded outward and proven on all points (enclose.h), so
+// every result contains them as stored.
 //
 // Source: digest 002, section 4, and its checklist; the methods are in headers of their own.
 #pragma once
@@ -32,7 +33,7 @@ struct FitMethod {
   std::string name;      // of this kind: "minimal"; of a k-DOP its k
   bool quick = false;    // closed form or principal axes: constant time a point
   bool least = false;    // the one of its kind that gives the least volume
-  bool on_hull = false;  // needs the convex hull, whose time is not in the fit's
+  bool on_hull = false;  // needs the convex hull, whose time is not in the fit's; the others go by all points
   friend bool operator==(const FitMethod&, const FitMethod&) = default;
 };
 
@@ -74,11 +75,19 @@ class VolumeFitter {
   static Result<VolumeFitter> make(std::span<const Double3> points,
                                    std::span<const std::array<std::uint32_t, 3>> triangles = {});
 
-  const ConvexHull& hull() const;
-  double hull_seconds() const;
+  const PointCloud& cloud() const;
+
+  // Built when it is first asked for, by this or by a method that needs it; with the deadline of that time.
+  const ConvexHull& hull(const Deadline& deadline = {}) const;
+  bool has_hull() const;
+  double hull_seconds() const;  // that it took; 0: it was not needed
 
   // None when float32 cannot hold the volume (a ball round points near 3.4e38).
   std::optional<FittedVolume> fit(const FitMethod& method, const FitOptions& options = {}) const;
+
+  // A bound proven for one volume of a kind holds for all of that kind round the same points, and the volume
+  // of a hull that was built for all kinds: gives each the best.
+  void share_lower_bounds(std::span<FittedVolume> volumes) const;
 
   struct Prepared;
 
@@ -86,9 +95,5 @@ class VolumeFitter {
   explicit VolumeFitter(std::shared_ptr<Prepared> prepared) : prepared_(std::move(prepared)) {}
   std::shared_ptr<Prepared> prepared_;
 };
-
-// A bound proven for one volume of a kind holds for all of that kind round the same points: gives each the
-// best.
-void share_lower_bounds(std::span<FittedVolume> of_one_set);
 
 }  // namespace copse

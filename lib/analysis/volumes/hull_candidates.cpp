@@ -214,7 +214,7 @@ HullCandidates hull_candidates(std::span<const Double3> points, std::size_t limi
     c.chosen = c.all;
     return c;
   };
-  if (points.size() <= k_few) return unfiltered();
+  if (points.size() <= std::min(k_few, limit)) return unfiltered();
   const Points sample = sample_of(points);
   if (sample.size() < 64) return unfiltered();
   const Fattening fat = fattening_of(sample);
@@ -229,7 +229,7 @@ HullCandidates hull_candidates(std::span<const Double3> points, std::size_t limi
   Points kept = filtered(points, fat, first, margin, outer, k_cells / 2);
   const int fine = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(limit) / 6)));
   Farthest finest(fine);
-  if (kept.size() > k_worth) {
+  if (kept.size() > std::min(k_worth, limit)) {
     Points wider = in_fat(outer.points(), fat);
     wider.insert(wider.end(), inner.begin(), inner.end());
     const Gauge second(wider);
