@@ -24,11 +24,6 @@ float to_linear(float s) {
   return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
 }
 
-std::uint8_t to_srgb_byte(float l) {
-  const float s = l <= 0.0031308f ? 12.92f * l : 1.055f * std::pow(l, 1 / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(std::clamp(s, 0.0f, 1.0f) * 255));
-}
-
 const std::array<float, 256>& linear_of_byte() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> t{};
@@ -36,6 +31,35 @@ const std::array<float, 256>& linear_of_byte() {
     return t;
   }();
   return table;
+}
+
+// The nearest byte: of two neighbours that whose half is met. A table says where to begin to look.
+class SrgbBytes {
+ public:
+  SrgbBytes() {
+    for (std::size_t b = 1; b < from_.size(); ++b) from_[b] = to_linear((static_cast<float>(b) - 0.5f) / 255);
+    std::size_t byte = 0;
+    for (std::size_t i = 0; i < first_.size(); ++i) {
+      while (byte < 255 && from_[byte + 1] <= static_cast<float>(i) / k_steps) ++byte;
+      first_[i] = static_cast<std::uint8_t>(byte);
+    }
+  }
+  std::uint8_t of(float linear) const {
+    const float l = std::clamp(linear, 0.0f, 1.0f);
+    std::size_t byte = first_[static_cast<std::size_t>(l * k_steps)];
+    while (byte < 255 && from_[byte + 1] <= l) ++byte;
+    return static_cast<std::uint8_t>(byte);
+  }
+
+ private:
+  static constexpr float k_steps = 4096;
+  std::array<float, 256> from_{};
+  std::array<std::uint8_t, 4097> first_{};
+};
+
+std::uint8_t to_srgb_byte(float linear) {
+  static const SrgbBytes bytes;
+  return bytes.of(linear);
 }
 
 Level decode(std::span<const std::uint8_t> rgba, int width, int height) {
@@ -125,12 +149,18 @@ std::uint8_t tested_alpha_byte(float a, float cutoff) {
              : byte;
 }
 
-// Straight sRGB colour; texels without alpha take the colour of the next smaller level.
-MipLevel encode(const Level& level, const MipLevel* smaller, float cutoff, float scale) {
+// Straight sRGB colour; texels without alpha take the colour of the next smaller level. `source`: of the
+// largest level, whose texels with alpha stay as they are, to the byte.
+MipLevel encode(const Level& level, const MipLevel* smaller, float cutoff, float scale,
+                std::span<const std::uint8_t> source) {
   MipLevel out{level.width, level.height, std::vector<std::uint8_t>(level.texels.size() * 4)};
   for (std::size_t i = 0; i < level.texels.size(); ++i) {
     const Texel& t = level.texels[i];
     std::uint8_t* p = &out.rgba[4 * i];
+    if (!source.empty() && source[4 * i + 3] > 0) {
+      std::copy_n(&source[4 * i], 4, p);
+      continue;
+    }
     if (t.a > 0) {
       p[0] = to_srgb_byte(t.r / t.a), p[1] = to_srgb_byte(t.g / t.a), p[2] = to_srgb_byte(t.b / t.a);
     } else if (smaller) {
@@ -155,12 +185,8 @@ std::vector<MipLevel> mip_chain(std::span<const std::uint8_t> rgba, int width, i
   for (std::size_t i = levels.size(); i-- > 0;) {
     const bool tested = alpha_cutoff > 0 && i > 0;
     const float scale = tested ? alpha_scale(levels[i], alpha_cutoff, share) : 1;
-    chain[i] =
-        encode(levels[i], i + 1 < levels.size() ? &chain[i + 1] : nullptr, tested ? alpha_cutoff : 0, scale);
-  }
-  // What can be seen keeps the source's bytes: decoding and encoding may be off by one.
-  for (std::size_t i = 0; i < rgba.size(); i += 4) {
-    if (rgba[i + 3]) std::copy_n(&rgba[i], 4, &chain.front().rgba[i]);
+    chain[i] = encode(levels[i], i + 1 < levels.size() ? &chain[i + 1] : nullptr, tested ? alpha_cutoff : 0,
+                      scale, i == 0 ? rgba : std::span<const std::uint8_t>());
   }
   return chain;
 }

@@ -49,6 +49,20 @@ Grid make_grid(const FloatBox& bounds, std::size_t resolution) {
   return grid;
 }
 
+// Two cells beside the bounds and one above.
+Grid make_low_grid(const FloatBox& bounds, std::size_t resolution) {
+  Grid grid;
+  const Double3 low = to_double(bounds.min), extent = to_double(bounds.max) - low;
+  grid.cell = std::max({extent.x, extent.y, extent.z, 1e-30}) / static_cast<double>(resolution - 4);
+  grid.corner = low - Double3{2 * grid.cell, 0, 2 * grid.cell};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double cells = std::ceil(extent[static_cast<int>(axis)] / grid.cell) + (axis == 1 ? 1 : 4);
+    grid.size[axis] = std::clamp<std::size_t>(static_cast<std::size_t>(cells), 1, resolution + 1);
+  }
+  grid.area.resize(grid.count());
+  return grid;
+}
+
 struct Corners {
   Double3 a, b, c;
   double area() const { return length(cross(b - a, c - a)) / 2; }
@@ -162,11 +176,9 @@ class Sweep {
 
 }  // namespace
 
-SkyLight make_sky_light(const TreeGeometry& geometry, std::span<const float> opacity,
-                        std::size_t resolution) {
-  if (geometry.bounds.empty()) return {};
-  Grid grid = make_grid(geometry.bounds, std::max<std::size_t>(resolution, 1));
-  deposit(grid, geometry, opacity);
+namespace {
+
+SkyLight swept(const Grid& grid) {
   std::vector<double> constant(grid.count(), 0);
   std::vector<Double3> linear(grid.count());
   for (std::size_t d = 0; d < k_directions; ++d) {
@@ -189,6 +201,30 @@ SkyLight make_sky_light(const TreeGeometry& geometry, std::span<const float> opa
     const Float3 l = to_float(linear[i] / k_directions);
     sky.cells[i] = {l.x, l.y, l.z, static_cast<float>(constant[i] / (2 * k_directions))};
   }
+  return sky;
+}
+
+}  // namespace
+
+SkyLight make_sky_light(const TreeGeometry& geometry, std::span<const float> opacity,
+                        std::size_t resolution) {
+  if (geometry.bounds.empty()) return {};
+  Grid grid = make_grid(geometry.bounds, std::max<std::size_t>(resolution, 1));
+  deposit(grid, geometry, opacity);
+  return swept(grid);
+}
+
+SkyLight make_sky_light(std::span<const SkyOccluder> occluders, const FloatBox& bounds,
+                        std::size_t resolution) {
+  if (bounds.empty() || occluders.empty()) return {};
+  Grid grid = make_low_grid(bounds, std::max<std::size_t>(resolution, 8));
+  for (const SkyOccluder& o : occluders)
+    if (is_finite(to_double(o.position)) && std::isfinite(o.area))
+      grid.area[grid.cell_of(to_double(o.position))] += std::max(0.0, double{o.area});
+  SkyLight sky = swept(grid);
+  // Beside the bounds it opens over the two cells there; above them everything is open.
+  const auto opens = [&](std::size_t axis) { return 1 - 4 / static_cast<float>(grid.size[axis]); };
+  sky.opens = {opens(0), 1.1f, opens(2)};
   return sky;
 }
 

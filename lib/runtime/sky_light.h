@@ -23,6 +23,8 @@ struct SkyLight {
   // x fastest, then y, then z. The light that a white surface with unit normal n sends back, as a share of
   // what it would send back facing an open sky: max(0, w + x n.x + y n.y + z n.z).
   std::vector<Float4> cells{{0, 0.5f, 0, 0.5f}};
+  // From the grid's middle (0) to its border (1): from where on the sky opens towards what is outside.
+  Float3 opens{0.7f, 0.7f, 0.7f};
 };
 
 // `opacity` has one entry a range of the geometry: its material's alpha times its alpha coverage. The grid
@@ -30,5 +32,18 @@ struct SkyLight {
 // O(triangles + resolution^3 * directions); deterministic.
 SkyLight make_sky_light(const TreeGeometry& geometry, std::span<const float> opacity,
                         std::size_t resolution = 48);
+
+// A point that takes light away from what is round it.
+struct SkyOccluder {
+  Float3 position;
+  float area =
+      0;  // projected, the mean over all directions, m^2: half of a card's, a quarter of a closed surface's
+};
+
+// The same for what is wide and low, a forest: the grid covers the bounds, two cells beside them and one
+// above, so its cost goes with their area; cells are cubes, `resolution` (at least 8) along the longest side.
+// The open sky where nothing takes light. O(occluders + cells * directions); deterministic.
+SkyLight make_sky_light(std::span<const SkyOccluder> occluders, const FloatBox& bounds,
+                        std::size_t resolution);
 
 }  // namespace copse

@@ -36,8 +36,31 @@ TerrainTiles::TerrainTiles(const Terrain& terrain) : columns_(terrain.columns), 
       measure(terrain, c, r, tiles_[std::size_t{r} * tile_columns_ + c]);
 }
 
-// Each vertex against the point of the coarse triangle that has its place in the grid. Triangles as of the
-// file: cell a b / c d is cut from a to d.
+namespace {
+
+// The square of the largest gap between the vertices of a tile and its triangles at a step: each vertex
+// against the point of the coarse triangle that has its place in the grid. Triangles as of the file: cell
+// a b / c d is cut from a to d. `at`: what a vertex has, a place or a height.
+template <class At, class Square>
+double largest_gap(const Side& x, const Side& z, At at, Square square) {
+  double largest = 0;
+  for (std::uint32_t k = 0; k + 1 < z.count(); ++k)
+    for (std::uint32_t i = 0; i + 1 < x.count(); ++i) {
+      const std::uint32_t c0 = x[i], c1 = x[i + 1], r0 = z[k], r1 = z[k + 1];
+      const auto a = at(c0, r0), b = at(c1, r0), c = at(c0, r1), d = at(c1, r1);
+      const double across = 1.0 / (c1 - c0), down = 1.0 / (r1 - r0);
+      for (std::uint32_t r = r0; r <= r1; ++r)
+        for (std::uint32_t q = c0; q <= c1; ++q) {
+          const double u = (q - c0) * across, v = (r - r0) * down;
+          const auto on = u >= v ? a * (1 - u) + b * (u - v) + d * v : a * (1 - v) + c * (v - u) + d * u;
+          largest = std::max(largest, square(at(q, r) - on));
+        }
+    }
+  return largest;
+}
+
+}  // namespace
+
 void TerrainTiles::measure(const Terrain& terrain, std::uint32_t tile_column, std::uint32_t tile_row,
                            Tile& tile) const {
   const Side fine_x = side_of(tile_column, columns_, 0), fine_z = side_of(tile_row, rows_, 0);
@@ -46,21 +69,15 @@ void TerrainTiles::measure(const Terrain& terrain, std::uint32_t tile_column, st
   double worst = 0;
   for (std::uint32_t level = 1; level < k_terrain_levels; ++level) {
     const Side x = side_of(tile_column, columns_, level), z = side_of(tile_row, rows_, level);
-    double squared = 0;
-    for (std::uint32_t k = 0; k + 1 < z.count(); ++k)
-      for (std::uint32_t i = 0; i + 1 < x.count(); ++i) {
-        const std::uint32_t c0 = x[i], c1 = x[i + 1], r0 = z[k], r1 = z[k + 1];
-        const Double3 a = terrain.vertex(c0, r0), b = terrain.vertex(c1, r0), c = terrain.vertex(c0, r1),
-                      d = terrain.vertex(c1, r1);
-        for (std::uint32_t r = r0; r <= r1; ++r)
-          for (std::uint32_t q = c0; q <= c1; ++q) {
-            const double u = static_cast<double>(q - c0) / (c1 - c0),
-                         v = static_cast<double>(r - r0) / (r1 - r0);
-            const Double3 on = u >= v ? a * (1 - u) + b * (u - v) + d * v : a * (1 - v) + c * (v - u) + d * u;
-            const Double3 off = terrain.vertex(q, r) - on;
-            squared = std::max(squared, dot(off, off));
-          }
-      }
+    // On a regular grid places agree but for their heights.
+    const auto height = [&](std::uint32_t c, std::uint32_t r) {
+      return double{terrain.heights[std::size_t{r} * columns_ + c]};
+    };
+    const double squared =
+        terrain.regular() ? largest_gap(x, z, height, [](double gap) { return gap * gap; })
+                          : largest_gap(
+                                x, z, [&](std::uint32_t c, std::uint32_t r) { return terrain.vertex(c, r); },
+                                [](const Double3& gap) { return dot(gap, gap); });
     worst = std::max(worst, std::sqrt(squared));
     tile.errors[level] = round_up(worst);
   }

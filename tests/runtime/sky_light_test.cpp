@@ -1,6 +1,8 @@
 #include "lib/runtime/sky_light.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +93,56 @@ TEST(SkyLight, APointAndATinyTreeAreFinite) {
   for (const Float4& c : make_sky_light(g, opaque, 8).cells) {
     EXPECT_TRUE(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w));
   }
+}
+
+// A wood of 100 m x 100 m, 10 m high: so much projected area over every square metre.
+SkyLight wood(float area_a_square_metre, std::size_t resolution = 64) {
+  std::vector<SkyOccluder> leaves;
+  for (int x = 0; x < 200; ++x)
+    for (int z = 0; z < 200; ++z)
+      leaves.push_back(
+          {{0.5f * static_cast<float>(x) + 0.25f, static_cast<float>((7 * x + 3 * z) % 10) + 0.5f,
+            0.5f * static_cast<float>(z) + 0.25f},
+           0.25f * area_a_square_metre});
+  return make_sky_light(leaves, {{0, 0, 0}, {100, 10, 100}}, resolution);
+}
+
+// Straight down exp(-area) would be left; slanting rays have a longer way.
+TEST(SkyLight, UnderAWoodItIsAsDarkAsALayerOfThatDensity) {
+  for (const float area : {0.25f, 1.0f, 3.0f}) {
+    const float left = received(wood(area), {50, 0.2f, 50}, {0, 1, 0});
+    double expected = 0, all = 0;
+    for (int k = 0; k < 1000; ++k) {  // 2 * integral of exp(-area / c) * c over the cosine c of the slant
+      const double c = (k + 0.5) / 1000;
+      expected += c * std::exp(-double{area} / c), all += c;
+    }
+    EXPECT_NEAR(left, expected / all, 0.08) << area;
+  }
+}
+
+TEST(SkyLight, BesideAndAboveAWoodTheSkyOpens) {
+  const SkyLight sky = wood(3);
+  EXPECT_GT(received(sky, {50, 11, 50}, {0, 1, 0}), 0.95f);
+  EXPECT_GT(received(sky, {-2, 5, 50}, {-1, 0, 0}), 0.4f);
+  EXPECT_LT(received(sky, {-2, 5, 50}, {1, 0, 0}), 0.25f);
+  EXPECT_NEAR(sky.opens.x, 1 - 4 / 64.0, 0.005);
+  EXPECT_GT(sky.opens.y, 1);
+}
+
+TEST(SkyLight, AWideWoodHasFewLayersOfCells) {
+  const SkyLight sky = wood(1);
+  EXPECT_EQ(sky.size[0], 64u);
+  EXPECT_EQ(sky.size[2], 64u);
+  EXPECT_LE(sky.size[1], 8u);
+}
+
+TEST(SkyLight, OccludersWithoutASizeOrAPlaceAreNone) {
+  const float huge = std::numeric_limits<float>::infinity();
+  const SkyOccluder bad[] = {
+      {{0, 0, 0}, huge}, {{huge, 0, 0}, 1}, {{0, 0, 0}, std::nanf("")}, {{0, 0, 0}, -5}};
+  for (const Float4& c : make_sky_light(bad, {{0, 0, 0}, {1, 1, 1}}, 8).cells) EXPECT_NEAR(c.w, 0.5f, 1e-6);
+  EXPECT_EQ(make_sky_light(std::span<const SkyOccluder>(), {{0, 0, 0}, {1, 1, 1}}, 8).cells.size(), 1u);
+  EXPECT_EQ(make_sky_light(std::span(bad), FloatBox{}, 8).cells.size(), 1u);
 }
 
 }  // namespace

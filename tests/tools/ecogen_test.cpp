@@ -257,6 +257,7 @@ TEST_F(Ecogen, TablesMayBeginWithAMarkAndNameAColumnOnce) {
 TEST_F(Ecogen, OptionsThatMeanNothingTogetherAreRefused) {
   EXPECT_EQ(run_process({"ecogen", "--new", "--schema"}).status, 2);
   EXPECT_EQ(run({"--lowest-sun", "30"}).status, 2) << "without a path";
+  EXPECT_EQ(run({"--widest", "3"}).status, 2) << "without a path";
   ASSERT_EQ(run().status, 0);
   const Outcome o = run_process({"treedump", file("out.eco"), file("out.eco"), "--diff", "--tolerance", "1"});
   EXPECT_EQ(o.status, 2);
@@ -412,6 +413,27 @@ v.validateBytes(new Uint8Array(fs.readFileSync(process.argv[2]))).then(r => {
   }
 }
 
+// Blender before 3.6 does not know EXT_mesh_gpu_instancing; every version opens nodes.
+TEST_F(Ecogen, BlenderOpensAGlbOfNodes) {
+  if (run_process({"/bin/sh", "-c", "command -v blender"}).status != 0)
+    GTEST_SKIP() << "Blender is not installed";
+  page_["types"][0]["count"] = 3;
+  page_["types"][1]["count"] = 2;
+  ASSERT_EQ(run({"--export", file("n.glb"), "--glb-nodes"}).status, 0);
+  // Blender 3.4 of Debian 12 asks for numpy.bool, which numpy of Debian 12 does not have any more.
+  write_text(file("open.py"), R"(import bpy, numpy, sys
+if 'bool' not in vars(numpy): numpy.bool = bool
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.import_scene.gltf(filepath=sys.argv[-1])
+shown = [o for o in bpy.data.objects if o.type == 'MESH']
+print('opened', len(shown), 'of', len({o.data.name for o in shown}))
+)");
+  const Outcome o = run_process({"/bin/sh", "-c",
+                                 "blender --background --factory-startup --python '" + file("open.py") +
+                                     "' -- '" + file("n.glb") + "'"});
+  EXPECT_NE(o.out.find("opened 6 of 3"), std::string::npos) << o.out << o.err;  // five trees and a terrain
+}
+
 TEST_F(Ecogen, WhatNoFrameShowsIsLeftOut) {
   write_text(
       file("path.json"),
@@ -423,6 +445,21 @@ TEST_F(Ecogen, WhatNoFrameShowsIsLeftOut) {
   for (const InstanceBlock& b : eco.blocks)
     for (std::size_t i = b.first; i < b.first + b.count; ++i)
       EXPECT_LT(instance_of(eco, b, i).position.x, 25);
+}
+
+// Looking north, what stands to the left and the right is in wide frames alone.
+TEST_F(Ecogen, WiderFramesKeepMore) {
+  write_text(
+      file("path.json"),
+      R"({"schema":"copse.path/1","fov":20,"keys":[{"time":0,"eye":[20,2,39],"target":[20,2,0]},{"time":1,"eye":[20,2,39],"target":[20,2,0]}]})");
+  for (auto& type : page_["types"]) type["scale"] = 1e-4;
+  std::vector<std::size_t> kept;
+  for (const char* widest : {"1", "2.4", "5"}) {
+    ASSERT_EQ(run({"--camera-path", file("path.json"), "--lowest-sun", "90", "--widest", widest}).status, 0);
+    kept.push_back(load().instance_count());
+  }
+  EXPECT_LT(kept[0], kept[1]);
+  EXPECT_LT(kept[1], kept[2]);
 }
 
 // The camera looks west from x = 20; east of it stand trees whose shadows a low sun throws past it.
@@ -512,6 +549,7 @@ TEST_F(Ecogen, ProvenanceHasTheOptionsAndTheSources) {
   EXPECT_EQ(told["options"]["compress"], true);
   EXPECT_EQ(told["options"]["camera-path"], "path.json");
   EXPECT_EQ(told["options"]["lowest-sun"], 20);
+  EXPECT_EQ(told["options"]["widest"], 2.4);
   EXPECT_EQ(told["sources"][1]["name"], "path.json");
   EXPECT_EQ(told["sources"].size(), 2u);
 }

@@ -59,6 +59,59 @@ TEST_F(TreeplayForest, TreesTakeTheLevelOfTheirDistance) {
   EXPECT_GT(few, 0.1 * all);  // two levels, no nothing
 }
 
+// One tree of 136 triangles, of 57 from 10 m on and of 23 from 40 m on.
+class TreeplayOneTree : public TreeplayForest {
+ protected:
+  void SetUp() override {
+    TreeplayForest::SetUp();
+    write_text(file("page.json"), R"({"terrain": {"size": [40, 40]},
+      "types": [{"name": "rich", "tree": "rich.stree", "instances": [{"x": 20, "z": 20}]}]})");
+    ASSERT_EQ(run_process({"ecogen", file("page.json"), "-o", file("f.eco")}).status, 0);
+  }
+  // Triangles of a picture from so many metres away; seen_: how much light comes from the tree, which stands
+  // in front of a black sky.
+  double triangles(int away, const char* fade, const char* samples = "1") {
+    const Outcome o = play({"--camera", "20,4," + std::to_string(20 + away) + ",20,4.1,20,40", "--fade", fade,
+                            "--unlit", "--background", "black", "--samples", samples});
+    EXPECT_EQ(o.status, 0) << o.err;
+    const auto image = read_image(file("f.png"));
+    EXPECT_TRUE(image);
+    seen_ = 0;
+    for (std::size_t i = 0; i < std::size_t{4} * 48 * 12; i += 4)  // above the horizon
+      seen_ += image->rgba[i] + image->rgba[i + 1] + image->rgba[i + 2];
+    return stat(6);
+  }
+  double seen_ = 0;
+};
+
+TEST_F(TreeplayOneTree, BetweenTwoLevelsBothAreDrawnEachInItsShareOfThePixels) {
+  const double ground = triangles(8, "0", "4") - 136, fine = seen_;
+  EXPECT_EQ(triangles(11, "0", "4"), ground + 57);
+  const double coarse = seen_;
+  // Together they cover what a tree covers: no sample is drawn by both, or by none.
+  for (const char* samples : {"1", "4"}) {
+    EXPECT_EQ(triangles(10, "0.3", samples), ground + 136 + 57);
+    EXPECT_GT(seen_, 0.8 * std::min(fine, coarse)) << samples;
+    EXPECT_LT(seen_, 1.2 * std::max(fine, coarse)) << samples;
+  }
+  EXPECT_EQ(triangles(5, "0.3"), ground + 136);
+  EXPECT_EQ(play({"--fade", "0.6"}).status, 2);
+}
+
+TEST_F(TreeplayOneTree, WhatIsAFewPixelsHighCostsAHandfulOfTriangles) {
+  const double ground = triangles(9, "0") - 136;
+  EXPECT_EQ(triangles(60, "0"), ground + 23);
+  const double few = triangles(400, "0") - ground;
+  EXPECT_LE(few, 16);
+  EXPECT_GT(few, 0);
+  // A tree without any levels as well.
+  ASSERT_EQ(run_process({"treeprep", file("rich.obj"), "-o", file("rich.stree")}).status, 0);
+  ASSERT_EQ(run_process({"ecogen", file("page.json"), "-o", file("f.eco")}).status, 0);
+  EXPECT_EQ(triangles(20, "0"), ground + 136);
+  EXPECT_LE(triangles(100, "0"), ground + 64);
+  EXPECT_LE(triangles(400, "0"), ground + 16);
+}
+
 // A cell of a table of the report, in the row that begins with `row`.
 double reported(const std::string& report, const std::string& table, const std::string& row,
                 std::size_t cell) {
@@ -194,6 +247,25 @@ TEST_F(TreeplayForest, ASunThatStandsLowerThanTheFileWasMadeForIsWarnedOf) {
   EXPECT_TRUE(told({"--sun", "90,30"}));
   EXPECT_FALSE(told({"--sun", "90,40"}));
   EXPECT_FALSE(told({"--sun", "90,30", "--unlit"}));
+}
+
+TEST_F(TreeplayForest, AFrameThatIsWiderThanTheFileWasMadeForIsWarnedOf) {
+  write_text(
+      file("path.json"),
+      R"({"schema":"copse.path/1","keys":[{"time":0,"eye":[20,5,60],"target":[20,2,20]},{"time":1,"eye":[20,5,60],"target":[20,2,21]}]})");
+  const auto told = [&](const std::string& widest, const std::string& size) {
+    EXPECT_EQ(run_process({"ecogen", file("page.json"), "-o", file("f.eco"), "--camera-path",
+                           file("path.json"), "--widest", widest})
+                  .status,
+              0);
+    const Outcome o = run_process({"treeplay", file("f.eco"), "--size", size, "--samples", "1", "--unlit",
+                                   "--frames", file("f.png"), "--path", file("path.json"), "--count", "1"});
+    EXPECT_EQ(o.status, 0) << o.err;
+    return o.err.find("make it with --widest 4") != std::string::npos;
+  };
+  EXPECT_TRUE(told("2", "64x16"));
+  EXPECT_FALSE(told("2", "32x16"));
+  EXPECT_FALSE(told("4", "64x16"));
 }
 
 // What the sky's light takes of a tree does not depend on what else is in the file.

@@ -316,7 +316,7 @@ class Builder {
   void drop_frames(Population& population, const TerrainGround& ground) {
     Stage stage = context_.stage("frames");
     const Seen seen = drop_unseen(population.instances, built_.eco.types, area_of(scene_, ground),
-                                  *options_.path, options_.lowest_sun);
+                                  *options_.path, options_.aspect, options_.lowest_sun);
     built_.farthest = seen.farthest;
     if (seen.dropped > 0)
       built_.left_out.push_back(

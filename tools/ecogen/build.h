@@ -17,6 +17,7 @@ struct BuildOptions {
   std::filesystem::path folder;  // of the output: names in it are relative to this
   std::filesystem::path document;
   const CameraPath* path = nullptr;  // instances that no frame of it shows are left out
+  double aspect = 2.4;               // of its frames at most: width over height
   double lowest_sun = 90;            // degrees above the horizon; how far shadows may fall into a frame
   double view_range = 0;             // m: nothing is drawn farther away; 0: as the page says
   bool pack = false;                 // trees and textures go into the file

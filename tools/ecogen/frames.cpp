@@ -14,7 +14,7 @@ namespace copse::ecogen {
 namespace {
 
 constexpr std::size_t k_cells = 64, k_frames = 1000;
-constexpr double k_aspect = 2.4, k_near = 0.01, k_far = 1e7;
+constexpr double k_near = 0.01, k_far = 1e7;
 
 std::size_t cell(double at, double low, double high) {
   return static_cast<std::size_t>(std::clamp((at - low) / (high - low) * k_cells, 0.0, k_cells - 1.0));
@@ -24,9 +24,9 @@ std::size_t cell(double at, double low, double high) {
 // between two: any moment is within half a step of one of them.
 class Frames {
  public:
-  explicit Frames(const CameraPath& path) {
+  Frames(const CameraPath& path, double aspect) {
     for (std::size_t f = 0; f < k_frames; ++f) {
-      views_.push_back(make_view(path.at(static_cast<double>(f) / (k_frames - 1)), k_aspect, k_near, k_far));
+      views_.push_back(make_view(path.at(static_cast<double>(f) / (k_frames - 1)), aspect, k_near, k_far));
       frusta_.push_back(frustum_of(views_.back()));
       if (f > 0) take_step(views_[f - 1], views_[f]);
     }
@@ -70,7 +70,7 @@ class Frames {
 }  // namespace
 
 Seen drop_unseen(std::vector<Instance>& instances, const std::vector<TreeType>& types,
-                 const PlantedArea& area, const CameraPath& path, double lowest_sun) {
+                 const PlantedArea& area, const CameraPath& path, double aspect, double lowest_sun) {
   const auto part_of = [&](const Instance& i) {
     const std::size_t at =
         cell(i.position.z, area.z0, area.z1) * k_cells + cell(i.position.x, area.x0, area.x1);
@@ -89,7 +89,7 @@ Seen drop_unseen(std::vector<Instance>& instances, const std::vector<TreeType>& 
     boxes[part].grow(box);
     sphere[part] = std::max(sphere[part], i.scale * reach_of_type[i.type]);
   }
-  const Frames frames(path);
+  const Frames frames(path, aspect);
   std::vector<double> farthest(boxes.size());
   tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t b) {
     if (!boxes[b].empty())

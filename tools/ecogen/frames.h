@@ -17,11 +17,11 @@ struct Seen {
 };
 
 // Drops instances that stand in parts of the ground (64 x 64) where no frame shows their type, because it
-// lies outside every one or beyond the type's view range. Conservative: frames are taken as wide as 2.4 : 1,
-// 1000 of them along the path, and boxes grow by what the camera may move, turn and widen between two, and
-// sideways by the shadow that they cast on level ground while the sun stands at least `lowest_sun` degrees
-// above the horizon, wherever it stands (above 0; 90: by none).
+// lies outside every one or beyond the type's view range. Conservative: frames are taken `aspect` times as
+// wide as they are high, 1000 of them along the path, and boxes grow by what the camera may move, turn and
+// widen between two, and sideways by the shadow that they cast on level ground while the sun stands at least
+// `lowest_sun` degrees above the horizon, wherever it stands (above 0; 90: by none).
 Seen drop_unseen(std::vector<Instance>& instances, const std::vector<TreeType>& types,
-                 const PlantedArea& area, const CameraPath& path, double lowest_sun);
+                 const PlantedArea& area, const CameraPath& path, double aspect, double lowest_sun);
 
 }  // namespace copse::ecogen

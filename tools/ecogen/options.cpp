@@ -61,6 +61,13 @@ void add_options(CLI::App& app, Options& o) {
       ->needs(path)
       ->capture_default_str();
   frames
+      ->add_option("--widest", o.widest,
+                   "width over height of the frames of the path, at most: 3.56 for a screen of 32 : 9")
+      ->check(number_between(0.1, 100))
+      ->type_name("RATIO")
+      ->needs(path)
+      ->capture_default_str();
+  frames
       ->add_option("--view-range", o.view_range,
                    "metres; nothing is drawn farther away, whatever view_range its type has")
       ->check(number_between(0, 1e9))

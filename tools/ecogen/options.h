@@ -16,6 +16,7 @@ struct Options {
   bool pack = false, compress = false, glb_nodes = false;
   std::filesystem::path instances, camera_path;
   double view_range = 0;   // m; 0: no limit
+  double widest = 2.4;     // width over height of a frame of the camera's path, at most
   double lowest_sun = 20;  // degrees
   std::vector<std::filesystem::path> exports;
 };

@@ -56,6 +56,7 @@ Result<std::string> provenance(const Options& options, const Scene& scene,
   }
   if (!options.camera_path.empty()) {
     json["options"]["camera-path"] = options.camera_path.filename().string();
+    json["options"]["widest"] = options.widest;
     json["options"]["lowest-sun"] = options.lowest_sun;
     files.push_back(options.camera_path);
   }
@@ -129,6 +130,7 @@ Result<void> make(const Options& options, Context& context) {
                      {.folder = options.output.parent_path(),
                       .document = options.input,
                       .path = *path ? &**path : nullptr,
+                      .aspect = options.widest,
                       .lowest_sun = options.lowest_sun,
                       .view_range = options.view_range,
                       .pack = options.pack},

@@ -9,7 +9,4 @@ namespace copse::treeplay {
 // Precondition: an .eco file.
 Result<void> take_ecosystem(Scene& scene, const std::filesystem::path& path, bool levels, Context& context);
 
-// The light of the sky in a whole forest: of a cloud with as much leaf in each place, not of every leaf.
-SkyLight forest_sky(const Scene& scene);
-
 }  // namespace copse::treeplay

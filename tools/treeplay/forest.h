@@ -19,14 +19,17 @@ namespace copse::treeplay {
 // tint.
 struct DrawCopy {
   std::array<Float4, 3> rows{Float4{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
-  std::array<std::uint8_t, 4> tint{255, 255, 255, 255};  // sRGB
+  // sRGB; the fourth says which pixels are drawn (level_ladder.h), all by itself
+  std::array<std::uint8_t, 4> tint{255, 255, 255, 255};
 };
 Float3 moved(const DrawCopy& copy, const Float3& p);
 
 // A type's triangles, as ranges of the scene's indices with the scene's materials.
 struct ForestType {
-  std::vector<std::vector<DrawRange>> levels;  // finest first
-  std::vector<float> coarser;  // metres at scale 1, ascending: from where each but the first is drawn
+  // Finest first: full detail, those by distance, and stochastic ones for what is a few pixels high.
+  std::vector<std::vector<DrawRange>> levels;
+  std::vector<float> coarser;  // metres at scale 1, ascending: from where each of those by distance is drawn
+  float height = 0;            // the longest side of its box, at scale 1
   std::shared_ptr<const TreeImpostor> impostor{};  // of its own materials; null: it has none
 };
 

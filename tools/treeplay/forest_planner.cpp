@@ -49,11 +49,6 @@ double height_of(const Ecosystem& eco) {
   return height;
 }
 
-std::uint32_t level_at(const std::vector<float>& coarser, double away) {
-  return static_cast<std::uint32_t>(
-      std::upper_bound(coarser.begin(), coarser.end(), static_cast<float>(away)) - coarser.begin());
-}
-
 }  // namespace
 
 ForestPlanner::ForestPlanner(const Scene& scene, BlockHierarchy by)
@@ -80,27 +75,45 @@ std::uint32_t ForestPlanner::first_group(std::uint32_t type, const StreamedInsta
   return known->second;
 }
 
-// At the level of its distance from the eye; answers its triangles. Impostors are pictures of a tree in its
-// own materials.
+void ForestPlanner::set_ladders(const ForestWish& wish) {
+  ladders_.clear();
+  for (const ForestType& type : scene_.forest.types)
+    ladders_.push_back(
+        {LevelLadder(type, false, wish.pixel, wish.fade), LevelLadder(type, true, wish.pixel, wish.fade)});
+}
+
+// At the level of its distance from the eye, between two at both; answers its triangles.
 std::uint64_t ForestPlanner::show(const StreamedInstance& instance, std::uint32_t type, const Side& side,
                                   ForestView& out) {
-  const ForestType& t = scene_.forest.types[type];
-  const double away = own_distance(instance, side.eye);
   const bool own = instance.trunk_material == k_none && instance.leaf_material == k_none;
-  if (own && t.impostor && away >= double{t.impostor->atlas.distance}) {
-    const ImpostorAtlas& atlas = t.impostor->atlas;
+  LadderChoice choice = ladders_[type][own].at(own_distance(instance, side.eye));
+  // A shadow is that of one of them, whole.
+  if (side.sun) choice.main.pixels = k_all_pixels;
+  std::uint64_t triangles = show_level(instance, type, side, choice.main, out);
+  if (!side.sun && choice.other.level != k_none)
+    triangles += show_level(instance, type, side, choice.other, out);
+  return triangles;
+}
+
+std::uint64_t ForestPlanner::show_level(const StreamedInstance& instance, std::uint32_t type,
+                                        const Side& side, const LadderLevel& level, ForestView& out) {
+  DrawCopy drawn{instance.rows, instance.tint};
+  drawn.tint[3] = level.pixels;
+  if (level.level == k_impostor) {
+    const ImpostorAtlas& atlas = scene_.forest.types[type].impostor->atlas;
     const auto& [x, y, z] = instance.rows;
     const Double3 place{double{x.w}, double{y.w}, double{z.w}};
-    const ImpostorCopy copy = impostor_copy({instance.rows, instance.tint}, atlas,
-                                            side.sun ? *side.sun : side.eye - place, side.sun != nullptr);
-    const bool small = side.sun || 2 * double{atlas.radius} < k_picture_pixels * side.pixel * away;
+    const ImpostorCopy copy =
+        impostor_copy(drawn, atlas, side.sun ? *side.sun : side.eye - place, side.sun != nullptr);
+    const bool small = side.sun || 2 * double{atlas.radius} <
+                                       k_picture_pixels * side.pixel * own_distance(instance, side.eye);
     if (small) out.impostors[type].single.push_back(picture_of(copy));
     if (!small) out.impostors[type].blended.push_back(copy);
     return 2;
   }
-  const std::uint32_t group = first_group(type, instance) + level_at(t.coarser, away);
+  const std::uint32_t group = first_group(type, instance) + level.level;
   if (out.copies.size() <= group) out.copies.resize(group + 1);
-  out.copies[group].push_back({instance.rows, instance.tint});
+  out.copies[group].push_back(drawn);
   return groups_[group].triangles;
 }
 
@@ -186,6 +199,7 @@ void ForestPlanner::cast(const View& view, const ForestWish& wish, ForestFrame& 
 
 Result<ForestFrame> ForestPlanner::plan(const View& view, const ForestWish& wish, ForestCounts& counts) {
   stream_.next_frame();
+  set_ladders(wish);
   ForestFrame frame;
   frame.seen.impostors.resize(eco_.types.size());
   see(view, wish, frame, counts);

@@ -9,6 +9,7 @@
 #include "lib/runtime/camera.h"
 #include "lib/runtime/shadow_cascades.h"
 #include "tools/treeplay/impostor_copy.h"
+#include "tools/treeplay/level_ladder.h"
 #include "tools/treeplay/scene.h"
 
 #include <array>
@@ -45,6 +46,7 @@ struct ForestWish {
   Double3 sun{0, 1, 0};
   int shadow_size = 4096;  // texels a side, for all maps together
   double pixel = 1e-3;     // tangent of the angle that a pixel covers
+  double fade = 0;         // between two levels, as LevelLadder takes it
 };
 
 // Ranges of the scene's geometry that are drawn together: a type at a level, in the materials of its
@@ -78,6 +80,9 @@ class ForestPlanner {
     const Double3* sun = nullptr;
   };
   std::uint64_t show(const StreamedInstance& instance, std::uint32_t type, const Side& side, ForestView& out);
+  std::uint64_t show_level(const StreamedInstance& instance, std::uint32_t type, const Side& side,
+                           const LadderLevel& level, ForestView& out);
+  void set_ladders(const ForestWish& wish);
   std::uint64_t show_ground(const Frustum& frustum, const Double3& eye, ForestView& out) const;
   void sort_by_distance(const Double3& eye);
 
@@ -88,6 +93,7 @@ class ForestPlanner {
   ForestGround ground_;  // with the levels that the last frame took
   std::vector<ForestGroup> groups_;
   std::map<Key, std::uint32_t> first_group_;
+  std::vector<std::array<LevelLadder, 2>> ladders_;  // of every type in other materials, in its own
   std::vector<SeenBlock> seen_;
   double nearest_ = 0;  // of the blocks that the camera saw last, metres from the eye
 };

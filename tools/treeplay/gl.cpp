@@ -73,7 +73,8 @@ std::string log_of(GLuint object, Get get, Log log) {
 
 Result<GLuint> compile(const char* name, GLenum kind, std::string_view common, std::string_view source) {
   const GLuint shader = glCreateShader(kind);
-  static constexpr std::string_view k_version = "#version 330 core\n";
+  static constexpr std::string_view k_version =
+      "#version 330 core\n#extension GL_ARB_sample_shading : enable\n";
   const GLchar* parts[] = {k_version.data(), common.data(), source.data()};
   const GLint sizes[] = {static_cast<GLint>(k_version.size()), static_cast<GLint>(common.size()),
                          static_cast<GLint>(source.size())};

@@ -27,7 +27,8 @@ ImpostorCopy impostor_copy(const DrawCopy& copy, const ImpostorAtlas& atlas, con
 
 PictureCopy picture_of(const ImpostorCopy& copy) {
   const auto share = [&](std::size_t c) { return static_cast<float>(copy.copy.tint[c]) / 255.0f; };
-  return {copy.copy.rows, copy.view[0], {share(0), share(1), share(2)}};
+  const float pixels = static_cast<float>(copy.copy.tint[3]) / 256.0f;
+  return {copy.copy.rows, copy.view[0] + pixels, {share(0), share(1), share(2)}};
 }
 
 }  // namespace copse::treeplay

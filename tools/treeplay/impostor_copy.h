@@ -17,7 +17,7 @@ struct ImpostorCopy {
 // The same with the heaviest view alone.
 struct PictureCopy {
   std::array<Float4, 3> rows{};
-  float view = 0;
+  float view = 0;               // its number, and which pixels are drawn in 256 parts (DrawCopy)
   std::array<float, 3> tint{};  // sRGB, 0 to 1
 };
 static_assert(sizeof(PictureCopy) == 64);

@@ -81,19 +81,22 @@ Texture2 make_frames(const std::vector<Double3>& views) {
 Result<ImpostorPass> ImpostorPass::make() {
   using namespace shaders;
   ImpostorPass pass;
-  const std::string blended = std::string(k_common) + std::string(k_impostor_common), single{k_common};
-  struct Wanted {
+  const std::string single{k_common}, single_fading = single + std::string(k_fade),
+                                      blended = single + std::string(k_impostor_common),
+                                      blended_fading = single_fading + std::string(k_impostor_common);
+  struct Source {
     const char* name;
     const std::string& common;
     std::string_view vertex, fragment;
     Program& program;
   };
-  const Wanted programs[] = {
-      {"impostor coverage", blended, k_impostor_vertex, k_impostor_coverage_fragment, pass.coverage_},
+  const Source programs[] = {
+      {"impostor coverage", blended_fading, k_impostor_vertex, k_impostor_coverage_fragment, pass.coverage_},
       {"impostor", blended, k_impostor_vertex, k_impostor_light_fragment, pass.light_},
-      {"picture coverage", single, k_picture_vertex, k_picture_coverage_fragment, pass.single_coverage_},
+      {"picture coverage", single_fading, k_picture_vertex, k_picture_coverage_fragment,
+       pass.single_coverage_},
       {"picture", single, k_picture_vertex, k_picture_light_fragment, pass.single_light_}};
-  for (const Wanted& w : programs) {
+  for (const Source& w : programs) {
     auto made = Program::make(w.name, w.common, w.vertex, w.fragment);
     if (!made) return std::unexpected(made.error());
     w.program = std::move(*made);
@@ -111,8 +114,7 @@ Result<ImpostorPass> ImpostorPass::make() {
   return pass;
 }
 
-Result<std::size_t> ImpostorPass::upload(const TreeImpostor& impostor) {
-  const ImpostorAtlas& atlas = impostor.atlas;
+Result<std::size_t> ImpostorPass::upload(const ImpostorAtlas& atlas, const ImpostorImages& images) {
   const std::vector<Double3> views = impostor_views(atlas.layout, atlas.views);
   GLint most = 0;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
@@ -123,8 +125,8 @@ Result<std::size_t> ImpostorPass::upload(const TreeImpostor& impostor) {
   Uploaded u;
   u.atlas = atlas;
   u.atlas.albedo = u.atlas.normal = {};
-  u.albedo = make_layers(atlas, impostor.albedo, GL_SRGB8_ALPHA8);
-  u.normals = make_layers(atlas, impostor.normals, GL_RGBA8);
+  u.albedo = make_layers(atlas, images.albedo, GL_SRGB8_ALPHA8);
+  u.normals = make_layers(atlas, images.normals, GL_RGBA8);
   u.frames = make_frames(views);
   u.blended = make_buffer();
   u.blended_array = make_copies_array(u.blended);
@@ -178,12 +180,12 @@ void ImpostorPass::draw(const Program& program, bool single) const {
   }
 }
 
-void ImpostorPass::draw_coverage(const Mat4& clip, const Float3& offset, float pixel,
+void ImpostorPass::draw_coverage(const Mat4& clip, const Float3& offset, const Float2& corner, float pixel,
                                  bool multisampled) const {
   for (const Program* p : {&coverage_, &single_coverage_}) {
     p->use();
     p->set("clip", clip), p->set("offset", offset), p->set("pixel", pixel);
-    p->set("multisampled", multisampled ? 1 : 0);
+    p->set("tile_corner", corner), p->set("multisampled", multisampled ? 1 : 0);
     draw(*p, p == &single_coverage_);
   }
 }

@@ -7,7 +7,7 @@
 #include "lib/runtime/camera.h"
 #include "tools/treeplay/gl.h"
 #include "tools/treeplay/impostor_copy.h"
-#include "tools/treeplay/tree_levels.h"
+#include "tools/treeplay/texture_reader.h"
 
 #include <vector>
 
@@ -17,13 +17,14 @@ class ImpostorPass {
  public:
   static Result<ImpostorPass> make();
   // Answers its number, from 0.
-  Result<std::size_t> upload(const TreeImpostor& impostor);
+  Result<std::size_t> upload(const ImpostorAtlas& atlas, const ImpostorImages& images);
 
   // The instances of an impostor that the next draws show, those with one picture apart. Uploads them.
   Result<void> show(std::size_t impostor, const ImpostorCopies& copies);
 
-  // `pixel`: tangent of the angle that a pixel covers.
-  void draw_coverage(const Mat4& clip, const Float3& offset, float pixel, bool multisampled) const;
+  // `pixel`: tangent of the angle that a pixel covers; `corner`: of the tile in the picture, in fragments.
+  void draw_coverage(const Mat4& clip, const Float3& offset, const Float2& corner, float pixel,
+                     bool multisampled) const;
   // The uniforms of the common part must have been set.
   void draw_light(const Mat4& clip, const Float3& offset, float pixel, bool lit, float haze_distance) const;
   const Program& light_program() const { return light_; }

@@ -152,6 +152,14 @@ void add_options(CLI::App& app, Options& options) {
                               {"r", BlockHierarchy::rtree}})
       ->type_name("none|flat|hierarchy|kd|r");
 
+  forest
+      ->add_option("--fade", options.fade,
+                   "how wide levels fade into one another before and behind their border, as a share of its "
+                   "distance; 0: not at all")
+      ->check(number_between(0, 0.5))
+      ->type_name("SHARE")
+      ->capture_default_str();
+
   CLI::Option_group* detail = app.add_option_group("Level of detail (of a tree that lodbake has been over)");
   CLI::Option* level = detail->add_option("--level", options.detail.level, "this discrete level; 0 is full")
                            ->check(whole_number_from(0, INT_MAX))
@@ -244,6 +252,7 @@ Result<Plan> understand(const Options& options) {
     return usage("--above-ground needs --camera", "say where it stands, or leave --above-ground out");
   plan.above_ground = options.above_ground;
   plan.settings.cull = options.cull;
+  plan.settings.fade = options.fade;
   const auto sun = parse_sun(options.sun);
   if (!sun) return std::unexpected(sun.error());
   plan.settings.sun = *sun;

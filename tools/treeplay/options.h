@@ -30,6 +30,7 @@ struct Options {
   bool headless = false, unlit = false, no_ground = false, above_ground = false;
   DetailWish detail;
   BlockHierarchy cull = BlockHierarchy::boxes;
+  double fade = 0.1;
   std::filesystem::path stats;
   std::uint64_t exit_after = 0;  // frames after which the window closes; 0: never
 };

@@ -95,6 +95,26 @@ void keep_one_of_each(ForestView& view) {
   for (ImpostorCopies& copies : view.impostors) keep_one(copies.blended), keep_one(copies.single);
 }
 
+// A first small frame lets the driver finish its shaders, so that the first one measured is like the rest,
+// and brings its textures in. Of a forest one tree at each of its levels does: a driver in software would
+// take as long for all of them as for a large frame.
+Result<void> warm_up(Renderer& renderer, const Camera& camera, const Plan& plan, LevelChoice& choice,
+                     Context& context) {
+  auto first = renderer.plan(camera, plan.look, 16, 16, choice);
+  if (!first) return std::unexpected(first.error());
+  {
+    Stage stage = context.stage("textures");
+    if (auto done = renderer.prepare(*first); !done) return done;
+    glFinish();
+  }
+  Stage stage = context.stage("warm up");
+  keep_one_of_each(first->forest.seen);
+  for (ForestView& casters : first->forest.casters) keep_one_of_each(casters);
+  if (auto done = renderer.draw_picture(*first); !done) return done;
+  glFinish();
+  return {};
+}
+
 Result<void> run_headless(const Scene& scene, const CameraPath& path, const Plan& plan, LevelChoice& choice,
                           bool measured, Statistics& statistics, Context& context) {
   std::unique_ptr<GlContext> gl;
@@ -114,16 +134,7 @@ Result<void> run_headless(const Scene& scene, const CameraPath& path, const Plan
     if (auto done = check_size(*renderer, plan); !done) return done;
   }
   if (measured) {
-    // A first small frame lets the driver finish its shaders, so that the first one measured is like the
-    // rest. Of a forest one tree at each of its levels does: a driver in software would take as long for all
-    // of them as for a large frame.
-    Stage stage = context.stage("warm up");
-    auto first = renderer->plan(path.at(0), plan.look, 16, 16, choice);
-    if (!first) return std::unexpected(first.error());
-    keep_one_of_each(first->forest.seen);
-    for (ForestView& casters : first->forest.casters) keep_one_of_each(casters);
-    if (auto done = renderer->draw_picture(*first); !done) return done;
-    glFinish();
+    if (auto done = warm_up(*renderer, path.at(0), plan, choice, context); !done) return done;
   }
   return draw_frames(*renderer, path, plan, choice, statistics, context);
 }
@@ -192,19 +203,35 @@ Result<void> check_culling(const Scene& scene, const Options& options) {
               "make it with \"block_trees\": [\"kd\", \"r\"] in its page, or cull by its box hierarchy");
 }
 
+// What ecogen left trees out for along a camera's path: such an option; none when it left none out.
+std::optional<double> path_option(const Ecosystem& eco, const char* name) {
+  const auto told = nlohmann::json::parse(eco.provenance, nullptr, false);
+  const auto option = nlohmann::json::json_pointer("/options/" + std::string(name));
+  if (told.is_discarded() || !told.contains(option) || !told[option].is_number()) return std::nullopt;
+  return told[option].get<double>();
+}
+
 // Trees outside every frame may have been left out whose shadows a lower sun would throw into one.
 void warn_of_low_sun(const Scene& scene, const Plan& plan, Context& context) {
   if (!scene.eco || !plan.look.lit) return;
-  const auto told = nlohmann::json::parse(scene.eco->provenance, nullptr, false);
-  const auto lowest = nlohmann::json::json_pointer("/options/lowest-sun");
-  if (told.is_discarded() || !told.contains(lowest) || !told[lowest].is_number()) return;
-  const double wanted = told[lowest].get<double>();
+  const auto wanted = path_option(*scene.eco, "lowest-sun");
   const double height = std::asin(std::clamp(plan.settings.sun.y, -1.0, 1.0)) * 180 / std::numbers::pi;
-  if (height >= wanted - 1e-6) return;
+  if (!wanted || height >= *wanted - 1e-6) return;
   context.warn(
       fmt::format("{}: the sun stands {:.4g} degrees high, and trees whose shadows fall into a frame "
                   "were kept for {:g} only; make it with --lowest-sun {:.0f}, or raise --sun",
-                  scene.name, height, wanted, std::max(1.0, std::floor(height))));
+                  scene.name, height, *wanted, std::max(1.0, std::floor(height))));
+}
+
+// Likewise trees that stand beside frames that are not so wide.
+void warn_of_wide_frames(const Scene& scene, const Plan& plan, Context& context) {
+  const auto wanted = scene.eco ? path_option(*scene.eco, "widest") : std::nullopt;
+  const double aspect = static_cast<double>(plan.width) / plan.height;
+  if (!wanted || aspect <= *wanted * (1 + 1e-9)) return;
+  context.warn(
+      fmt::format("{}: the frame is {:.4g} times as wide as high, and trees were kept for {:g} at "
+                  "most; make it with --widest {:.4g}, or ask for a narrower --size",
+                  scene.name, aspect, *wanted, std::ceil(100 * aspect) / 100));
 }
 
 Result<void> raise_camera(const Scene& scene, const Options& options, Plan& plan) {
@@ -250,6 +277,7 @@ Result<void> run(const Options& options, Context& context) {
   if (auto culls = check_culling(*scene, options); !culls) return culls;
   if (auto raised = raise_camera(*scene, options, *plan); !raised) return raised;
   warn_of_low_sun(*scene, *plan, context);
+  warn_of_wide_frames(*scene, *plan, context);
   const double aspect = static_cast<double>(plan->width) / plan->height;
   const auto path = make_path(options, plan->camera.value_or(framing(*scene, aspect)));
   if (!path) return std::unexpected(path.error());

@@ -42,6 +42,9 @@ struct Renderer::Tile {
   Mat4 clip;  // of this tile: relative -> clip
   Float3 offset;
   int sub_pixels = 1;
+  Float2 corner() const {  // in fragments
+    return {static_cast<float>(x * sub_pixels), static_cast<float>(y * sub_pixels)};
+  }
 };
 
 Renderer::Renderer(const Scene& scene, const RenderSettings& settings) : scene_(scene), settings_(settings) {
@@ -66,34 +69,58 @@ Result<std::unique_ptr<Renderer>> Renderer::make(const Scene& scene, const Rende
     r->primitives_ = std::move(*pass);
   }
   if (scene.eco) r->forest_ = std::make_unique<ForestPlanner>(scene, settings.cull);
-  if (auto done = r->upload_impostors(); !done) return std::unexpected(done.error());
+  r->impostor_of_.assign(scene.eco ? scene.forest.types.size() : 1, k_none);
+  if (scene.levels && scene.levels->impostor()) {
+    const std::size_t only[] = {0};
+    if (auto done = r->upload_impostors(only); !done) return std::unexpected(done.error());
+  }
   if (auto done = r->make_lights(); !done) return std::unexpected(done.error());
   return r;
 }
 
-Result<void> Renderer::upload_impostors() {
-  const auto upload = [&](const TreeImpostor* pictures) -> Result<std::size_t> {
-    if (!impostor_) {
-      auto pass = ImpostorPass::make();
-      if (!pass) return std::unexpected(pass.error());
-      impostor_.emplace(std::move(*pass));
-    }
-    return impostor_->upload(*pictures);
-  };
+// Of those that have none yet: `numbers`, of types, or 0 of a tree.
+Result<void> Renderer::upload_impostors(std::span<const std::size_t> numbers) {
   std::vector<const TreeImpostor*> wanted;
-  if (scene_.levels && scene_.levels->impostor()) wanted.push_back(&*scene_.levels->impostor());
-  for (const ForestType& type : scene_.forest.types) wanted.push_back(type.impostor.get());
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const TreeImpostor* pictures = wanted[i];
-    const auto same = std::find(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(i), pictures);
-    const auto first = static_cast<std::size_t>(same - wanted.begin());
-    impostor_of_.push_back(pictures && first < i ? impostor_of_[first] : k_none);
-    if (!pictures || first < i) continue;
-    const auto number = upload(pictures);
-    if (!number) return std::unexpected(number.error());
-    impostor_of_.back() = *number;
+  std::vector<std::size_t> places;
+  for (const std::size_t n : numbers) {
+    if (impostor_of_[n] != k_none) continue;
+    const TreeImpostor* pictures =
+        scene_.eco ? scene_.forest.types[n].impostor.get() : &*scene_.levels->impostor();
+    // Types of one tree share its pictures.
+    const auto [known, is_new] = impostor_numbers_.try_emplace(pictures, impostor_numbers_.size());
+    if (is_new) wanted.push_back(pictures);
+    impostor_of_[n] = known->second;
   }
+  if (wanted.empty()) return {};
+  if (!impostor_) {
+    auto pass = ImpostorPass::make();
+    if (!pass) return std::unexpected(pass.error());
+    impostor_.emplace(std::move(*pass));
+  }
+  const auto images = read_impostors(wanted);
+  if (!images) return std::unexpected(images.error());
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (const auto done = impostor_->upload(wanted[i]->atlas, (*images)[i]); !done)
+      return std::unexpected(done.error());
   return {};
+}
+
+// What a frame of a forest draws for the first time: the textures of its trees, and their pictures.
+Result<void> Renderer::prepare(const FramePlan& plan) {
+  if (!scene_.eco) return {};
+  const auto& groups = forest_->groups();
+  std::vector<SurfacePass::Ranges> fresh;
+  for (; groups_ < groups.size(); ++groups_) fresh.emplace_back(groups[groups_].ranges);
+  surfaces_.add_groups(scene_, fresh);
+  std::vector<std::size_t> numbers;
+  const auto add = [&](const ForestView& view) {
+    for (std::size_t t = 0; t < view.impostors.size(); ++t)
+      if (view.impostors[t].size() > 0) numbers.push_back(t);
+  };
+  add(plan.forest.seen);
+  for (const ForestView& casters : plan.forest.casters) add(casters);
+  if (auto done = upload_impostors(numbers); !done) return done;
+  return check_gl("uploading textures");
 }
 
 Result<void> Renderer::make_programs() {
@@ -312,7 +339,8 @@ Result<void> Renderer::plan_forest(FramePlan& plan) {
                              {.lit = plan.look.lit && settings_.lights,
                               .sun = settings_.sun,
                               .shadow_size = std::min(settings_.shadow_size, largest_size_),
-                              .pixel = 2 * plan.view.tan_half_y / plan.height},
+                              .pixel = 2 * plan.view.tan_half_y / plan.height,
+                              .fade = settings_.fade},
                              counts);
   if (!frame) return std::unexpected(frame.error());
   plan.forest = std::move(*frame);
@@ -360,8 +388,7 @@ Result<void> Renderer::draw(const FramePlan& plan, GLuint framebuffer) {
       std::clamp<std::int64_t>(k_tile_fragments / row, 1, std::min(plan.height, largest_size_ / s)));
   if (auto done = fit_tile_buffers(tile_width * s, tile_height * s); !done) return done;
   if (scene_.eco) {
-    for (; groups_ < forest_->groups().size(); ++groups_)
-      surfaces_.add_group(scene_, forest_->groups()[groups_].ranges);
+    if (auto done = prepare(plan); !done) return done;
     if (plan.look.lit)
       if (auto done = draw_forest_shadows(plan.forest); !done) return done;
     if (auto shown = show(plan.forest.seen); !shown) return shown;
@@ -414,11 +441,11 @@ void Renderer::set_common(const Program& program, const Tile& tile) const {
   program.set("sky_grid", unit_sky);
   const SkyLight& sky = scene_.sky;
   program.set("sky_corner", sky.corner);
+  program.set("sky_opens", sky.opens);
   program.set("sky_extent", Float3{static_cast<float>(sky.size[0]), static_cast<float>(sky.size[1]),
                                    static_cast<float>(sky.size[2])} *
                                 sky.cell);
-  program.set("tile_corner", Float2{static_cast<float>(tile.x * tile.sub_pixels),
-                                    static_cast<float>(tile.y * tile.sub_pixels)});
+  program.set("tile_corner", tile.corner());
   program.set("clip", tile.clip);
   program.set("offset", tile.offset);
 }
@@ -465,8 +492,8 @@ void Renderer::draw_surfaces(const FramePlan& plan, const Tile& tile, float ghos
   glDepthFunc(GL_LESS);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-  if (surfaces) surfaces_.draw_coverage(tile.clip, tile.offset, multisamples_ > 1);
-  if (impostors) impostor_->draw_coverage(tile.clip, tile.offset, pixel, multisamples_ > 1);
+  if (surfaces) surfaces_.draw_coverage(tile.clip, tile.offset, tile.corner(), multisamples_ > 1);
+  if (impostors) impostor_->draw_coverage(tile.clip, tile.offset, tile.corner(), pixel, multisamples_ > 1);
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthFunc(GL_EQUAL);

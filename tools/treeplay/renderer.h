@@ -12,8 +12,10 @@
 #include "tools/treeplay/tree_levels.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace copse::treeplay {
@@ -34,6 +36,7 @@ struct RenderSettings {
   int shadow_size = 4096;  // texels a side, of all maps together
   bool lights = true;      // false: nothing lit will be drawn, so nothing is prepared for it
   BlockHierarchy cull = BlockHierarchy::boxes;  // of an ecosystem
+  double fade = 0;  // between two levels of an ecosystem's trees, as LevelLadder takes it
 };
 
 // A picture that is about to be drawn: everything that the application decides.
@@ -63,6 +66,9 @@ class Renderer {
   // to be damaged when they are first seen.
   Result<FramePlan> plan(const Camera& camera, const Look& look, int width, int height, LevelChoice& choice);
 
+  // Reads and uploads what a frame draws for the first time; draw() does so by itself.
+  Result<void> prepare(const FramePlan& plan);
+
   // Into a framebuffer of the plan's size: 0 is the window.
   Result<void> draw(const FramePlan& plan, GLuint framebuffer);
 
@@ -84,7 +90,7 @@ class Renderer {
     Float2 reach{1, 1};  // width and depth, metres
     Float4 place{1, 1, 0, 0};
   };
-  Result<void> upload_impostors();
+  Result<void> upload_impostors(std::span<const std::size_t> numbers);
   void draw_shadow_map();
   Result<void> draw_forest_shadows(const ForestFrame& frame);
   void begin_shadow(int x, int y, int texels);
@@ -118,9 +124,10 @@ class Renderer {
   VertexArray no_vertices_;
   std::unique_ptr<ForestPlanner> forest_;
   std::size_t groups_ = 0;                // of the forest that surfaces_ knows
-  std::vector<std::size_t> impostor_of_;  // of the tree, or of every type, in impostor_; k_none: none
-  std::vector<ShadowMap> shadow_maps_;    // nearest first
-  bool shadow_ends_ = false;              // there are shadows beyond them
+  std::vector<std::size_t> impostor_of_;  // of the tree, or of every type, in impostor_; k_none: none yet
+  std::map<const TreeImpostor*, std::size_t> impostor_numbers_;
+  std::vector<ShadowMap> shadow_maps_;  // nearest first
+  bool shadow_ends_ = false;            // there are shadows beyond them
   Framebuffer shadow_framebuffer_;
   Texture2 shadow_texture_, sky_texture_;
   Sampler compare_sampler_, depth_sampler_;

@@ -3,6 +3,7 @@
 #include "lib/formats/import/import.h"
 #include "lib/formats/tree_file.h"
 #include "tools/treeplay/eco_scene.h"
+#include "tools/treeplay/forest_sky.h"
 
 #include <algorithm>
 #include <cctype>
@@ -91,14 +92,14 @@ double ground_under(const DoubleBox& box) {
   return box.min.y <= 0 && box.min.y >= -0.15 * height ? 0 : box.min.y;
 }
 
-// Brings the textures in that something drawn uses; a name is relative to the file that gives it.
-void load_images(Scene& scene, const std::vector<Texture>& textures, const fs::path& file, Context& context) {
-  scene.images.resize(textures.size());
-  for (std::size_t i = 0; i < textures.size(); ++i) {
-    const auto uses = [&](const DrawRange& range) { return material_of(scene, range).texture == i; };
-    if (std::none_of(scene.geometry.ranges.begin(), scene.geometry.ranges.end(), uses)) continue;
-    scene.images[i] = read_texture(textures[i], i, file, context);
+// Of a scene that is one tree or mesh.
+void take_textures(Scene& scene, std::vector<Texture>&& textures, const fs::path& file, Context& context) {
+  std::vector<bool> used(textures.size());
+  for (const DrawRange& range : scene.geometry.ranges) {
+    const std::uint32_t t = material_of(scene, range).texture;
+    if (t < used.size()) used[t] = true;
   }
+  add_textures(scene, std::move(textures), used, file, context);
 }
 
 // The mean colour of what a material covers.
@@ -163,7 +164,7 @@ Result<void> take_tree(Scene& scene, const fs::path& path, const Wanted& wanted,
   if (wanted.lines_points) {
     if (auto taken = take_lines_points(scene, *tree, path); !taken) return taken;
   }
-  load_images(scene, tree->textures, path, context);
+  take_textures(scene, std::move(tree->textures), path, context);
   return {};
 }
 
@@ -175,7 +176,7 @@ Result<void> take_mesh(Scene& scene, const fs::path& path, Context& context) {
   context.read(path, true);
   scene.geometry = make_geometry(import->mesh);
   scene.materials = import->mesh.materials;
-  load_images(scene, import->mesh.textures, path, context);
+  take_textures(scene, std::move(import->mesh.textures), path, context);
   return {};
 }
 
@@ -190,25 +191,21 @@ Result<void> take(Scene& scene, const fs::path& path, const Wanted& wanted, Cont
 
 }  // namespace
 
-std::optional<Image> read_texture(const Texture& texture, std::size_t index, const fs::path& file,
-                                  Context& context) {
-  const fs::path path = file.parent_path() / texture.uri;
-  Result<Image> image = texture.bytes.empty()
-                            ? read_image(path)
-                            : read_image(texture.bytes, fmt::format("{}, texture {}", file.string(), index));
-  if (!image) {
-    const Error& e = image.error();
-    context.warn(fmt::format("{}{}{}; its surfaces are drawn in their mean colour", e.file,
-                             e.file.empty() ? "" : ": ", e.what));
-    return std::nullopt;
+void add_textures(Scene& scene, std::vector<Texture>&& textures, const std::vector<bool>& used,
+                  const fs::path& file, Context& context) {
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    const bool beside = textures[i].bytes.empty();
+    const fs::path path = beside ? file.parent_path() / textures[i].uri : file;
+    std::error_code ignored;
+    if (beside && used[i] && fs::is_regular_file(path, ignored)) context.read(path, false);
+    scene.textures.push_back({std::move(textures[i]), path, i});
   }
-  if (texture.bytes.empty()) context.read(path, false);
-  return std::move(*image);
 }
 
 Result<Scene> load_scene(const fs::path& path, bool lights, const Wanted& wanted, Context& context) {
   Scene scene;
   scene.name = path.filename().string();
+  scene.warn = [&context](const std::string& what) { context.warn(what); };
   if (auto taken = take(scene, path, wanted, context); !taken) return std::unexpected(taken.error());
   scene.ground = ground_under(scene.bounds());
   if (!lights) return scene;

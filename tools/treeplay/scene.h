@@ -17,11 +17,19 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace copse::treeplay {
+
+// An image that is read when something that has it is drawn (texture_reader.h).
+struct SceneTexture {
+  Texture texture;
+  std::filesystem::path path;  // of the image, or of the file that holds it
+  std::size_t number = 0;      // in that file
+};
 
 struct Scene {
   std::string name;  // of the file, without its folder
@@ -35,7 +43,8 @@ struct Scene {
   std::vector<Float3> full_detail;           // then: the vertices of full detail
   std::optional<Skeleton> skeleton;          // of a tree that has a hierarchy, lines or leaf groups
   std::vector<Material> materials;
-  std::vector<std::optional<Image>> images;  // one a texture; empty: could not be read
+  std::vector<SceneTexture> textures;  // of the materials
+  std::function<void(const std::string&)> warn = [](const std::string&) {};
   SkyLight sky;
   double ground = 0;  // absolute height
 
@@ -50,9 +59,9 @@ struct Scene {
 // The material of a range, with a colour that suits its part when the file names none.
 Material material_of(const Scene& scene, const DrawRange& range);
 
-// An image of a texture in `file`; what cannot be read is warned about.
-std::optional<Image> read_texture(const Texture& texture, std::size_t index,
-                                  const std::filesystem::path& file, Context& context);
+// Appends the textures of a file; notes the images beside it that `used` textures are, where they exist.
+void add_textures(Scene& scene, std::vector<Texture>&& textures, const std::vector<bool>& used,
+                  const std::filesystem::path& file, Context& context);
 
 // Reads a .tree, .stree or .eco, or any mesh that treeprep reads. Images that cannot be read are warned about
 // and give way to the material's mean colour. `lights`: whether anything lit will be drawn; if not, `sky` is

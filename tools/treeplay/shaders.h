@@ -12,6 +12,9 @@ namespace copse::treeplay::shaders {
 // the sky grid, haze.
 extern const std::string_view k_common;
 
+// Behind k_common in front of what fades from one level into the next.
+extern const std::string_view k_fade;
+
 extern const std::string_view k_surface_vertex;
 extern const std::string_view k_coverage_fragment;  // first pass: depth and alpha only
 extern const std::string_view k_surface_fragment;   // second pass: light, where the depth is equal

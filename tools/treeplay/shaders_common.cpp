@@ -16,7 +16,7 @@ uniform vec2 shadow_reach[k_most_shadows];   // width of the map and depth of it
 uniform vec4 shadow_place[k_most_shadows];   // of the map in the texture: scale, then corner
 uniform bool shadow_ends;                    // beyond the last map are shadows that no map holds
 uniform sampler3D sky_grid;
-uniform vec3 sky_corner, sky_extent;
+uniform vec3 sky_corner, sky_extent, sky_opens;
 uniform vec2 tile_corner;           // of this tile in the whole image, in fragments
 
 const vec3 k_sun_colour = vec3(1.0, 0.89, 0.72) * 2.75;
@@ -129,7 +129,9 @@ float sunlight(vec3 local, vec3 normal, float far) {
 vec4 sky_at(vec3 local) {
   vec3 at = (local - sky_corner) / sky_extent;
   vec3 border = abs(at * 2.0 - 1.0);
-  float open = smoothstep(0.7, 1.0, max(border.x, max(border.y, border.z)));
+  vec3 out_by = clamp((border - sky_opens) / max(1.0 - sky_opens, vec3(1e-4)), 0.0, 1.0);
+  float open = max(out_by.x, max(out_by.y, out_by.z));
+  open *= open * (3.0 - 2.0 * open);
   return mix(texture(sky_grid, at), vec4(0.0, 0.5, 0.0, 0.5), open);
 }
 float skylight(vec4 sky_here, vec3 normal) { return max(0.0, sky_here.w + dot(sky_here.xyz, normal)); }
@@ -160,6 +162,35 @@ vec3 light_on(vec3 albedo, vec3 local, vec3 view, vec3 n, float thin, out float 
   vec3 filtered = albedo * vec3(1.05, 1.12, 0.5);
   float against = 1.0 + 1.2 * pow(max(dot(-view, sun_direction), 0.0), 4.0);
   return c + thin * filtered * k_sun_colour * sun * back * 0.65 * against;
+}
+)";
+
+const std::string_view k_fade = R"(
+#ifdef GL_ARB_sample_shading
+const bool k_has_sample_mask = true;
+void keep_samples(int kept) { gl_SampleMask[0] = kept; }
+#else
+const bool k_has_sample_mask = false;
+void keep_samples(int kept) {}
+#endif
+
+// The samples of a pixel that a copy does not leave to the level that it fades from or into; 0: none. `pixels`:
+// DrawCopy's byte. An ordered dither by interleaved gradient noise (Jimenez 2014); four samples of a pixel have
+// its four quarters, so that shares are met within an eighth.
+int kept_samples(float pixels, bool multisampled) {
+  if (pixels > 254.5) return -1;
+  vec2 p = gl_FragCoord.xy + tile_corner;
+  float noise = fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715))));
+  if (!multisampled || !k_has_sample_mask) {
+    float at = 127.0 * noise;
+    return (pixels < 127.5 ? at < pixels : at >= pixels - 127.0) ? -1 : 0;
+  }
+  int kept = 0;
+  for (int s = 0; s < 4; ++s) {
+    float at = 127.0 * (0.25 * (noise + float(s)));
+    if (pixels < 127.5 ? at < pixels : at >= pixels - 127.0) kept |= 1 << s;
+  }
+  return kept;
 }
 )";
 

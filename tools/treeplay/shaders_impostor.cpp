@@ -21,6 +21,7 @@ flat out vec3 f_eye;            // in the tree's frame
 flat out vec3 f_right[3], f_up[3], f_toward[3], f_view, f_weight, f_tint;
 flat out vec4 f_x, f_y, f_z;
 flat out int f_steps;           // towards where a ray meets the tree
+flat out float f_pixels;        // which are drawn
 vec3 decode(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), vec3(greaterThan(c, vec3(0.04045)))); }
 invariant gl_Position;  // both passes must agree to the bit
 void main() {
@@ -44,6 +45,7 @@ void main() {
   f_view = view;
   f_weight = weight;
   f_tint = decode(tint.rgb);
+  f_pixels = floor(255.0 * tint.a + 0.5);
   f_x = row_x; f_y = row_y; f_z = row_z;
   f_steps = 2.0 * radius > 96.0 * away * pixel ? 4 : 2;
   vec4 p = vec4(v_tree, 1.0);
@@ -110,10 +112,13 @@ Met meet(bool want_normal) {
 
 const std::string_view k_impostor_coverage_fragment = R"(
 uniform bool multisampled;
+flat in float f_pixels;
 out vec4 colour;
 void main() {
   float covered = meet(false).colour.a;
-  if (multisampled ? covered <= 0.0 : covered < 0.5) discard;
+  int kept = kept_samples(f_pixels, multisampled);
+  if (kept == 0 || (multisampled ? covered <= 0.0 : covered < 0.5)) discard;
+  keep_samples(kept);
   colour = vec4(0.0, 0.0, 0.0, covered);
 }
 )";
@@ -152,6 +157,7 @@ uniform vec3 offset, centre;
 uniform float radius;
 out vec3 v_local, v_place;  // v_place: in the picture, and which
 flat out vec3 f_right, f_up, f_toward, f_tint;
+flat out float f_pixels;  // which are drawn
 vec3 decode(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), vec3(greaterThan(c, vec3(0.04045)))); }
 vec4 row_x, row_y, row_z;
 vec3 turned(vec3 v) { return vec3(dot(row_x.xyz, v), dot(row_y.xyz, v), dot(row_z.xyz, v)); }
@@ -163,7 +169,8 @@ void main() {
   row_y = texelFetch(copies, at + ivec2(1, 0), 0);
   row_z = texelFetch(copies, at + ivec2(2, 0), 0);
   vec4 view_tint = texelFetch(copies, at + ivec2(3, 0), 0);
-  int row = int(view_tint.x + 0.5);
+  int row = int(view_tint.x);
+  f_pixels = 256.0 * (view_tint.x - float(row));
   f_right = turned(texelFetch(view_frames, ivec2(0, row), 0).xyz);
   f_up = turned(texelFetch(view_frames, ivec2(1, row), 0).xyz);
   f_toward = turned(texelFetch(view_frames, ivec2(2, row), 0).xyz);
@@ -171,7 +178,7 @@ void main() {
   // Two triangles: 0 1 2, 2 1 3.
   int c = corner_number < 3 ? corner_number : corner_number == 3 ? 2 : corner_number == 4 ? 1 : 3;
   vec2 corner = vec2(c & 1, c >> 1) * 2.0 - 1.0;
-  v_place = vec3(corner.x * 0.5 + 0.5, 0.5 - corner.y * 0.5, view_tint.x);
+  v_place = vec3(corner.x * 0.5 + 0.5, 0.5 - corner.y * 0.5, float(row));
   v_local = turned(centre) + vec3(row_x.w, row_y.w, row_z.w) + (f_right * corner.x + f_up * corner.y) * radius;
   gl_Position = clip * vec4(v_local + offset, 1.0);
 }
@@ -181,10 +188,13 @@ const std::string_view k_picture_coverage_fragment = R"(
 uniform sampler2DArray albedo_layers;
 uniform bool multisampled;
 in vec3 v_place;
+flat in float f_pixels;
 out vec4 colour;
 void main() {
   float covered = texture(albedo_layers, v_place).a;
-  if (multisampled ? covered <= 0.0 : covered < 0.5) discard;
+  int kept = kept_samples(f_pixels, multisampled);
+  if (kept == 0 || (multisampled ? covered <= 0.0 : covered < 0.5)) discard;
+  keep_samples(kept);
   colour = vec4(0.0, 0.0, 0.0, covered);
 }
 )";

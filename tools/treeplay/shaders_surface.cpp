@@ -14,6 +14,7 @@ uniform mat4 clip;
 uniform vec3 offset;
 out vec3 v_local, v_normal, v_tint;
 out vec2 v_texcoord;
+flat out float f_pixels;  // which are drawn
 vec3 decode(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), vec3(greaterThan(c, vec3(0.04045)))); }
 invariant gl_Position;  // both passes must agree to the bit
 void main() {
@@ -21,6 +22,7 @@ void main() {
   v_local = vec3(dot(row_x, p), dot(row_y, p), dot(row_z, p));
   v_normal = vec3(dot(row_x.xyz, normal), dot(row_y.xyz, normal), dot(row_z.xyz, normal));
   v_tint = decode(tint.rgb);
+  f_pixels = floor(255.0 * tint.a + 0.5);
   v_texcoord = vec2(texcoord.x, 1.0 - texcoord.y);  // images start at the top
   gl_Position = clip * vec4(v_local + offset, 1.0);
 }
@@ -31,12 +33,15 @@ uniform sampler2D image;
 uniform float cutoff, opacity;
 uniform bool multisampled;
 in vec2 v_texcoord;
+flat in float f_pixels;
 out vec4 colour;
 void main() {
   float a = texture(image, v_texcoord).a;
   // The cut is one fragment wide, centred where alpha crosses the cutoff.
   float covered = cutoff > 0.0 ? clamp((a * opacity - cutoff) / max(fwidth(a), 1e-4) + 0.5, 0.0, 1.0) : opacity;
-  if (multisampled ? covered <= 0.0 : covered < 0.5) discard;
+  int kept = kept_samples(f_pixels, multisampled);
+  if (kept == 0 || (multisampled ? covered <= 0.0 : covered < 0.5)) discard;
+  keep_samples(kept);
   colour = vec4(0.0, 0.0, 0.0, covered);
 }
 )";

@@ -1,6 +1,5 @@
 #include "tools/treeplay/surface_pass.h"
 
-#include "lib/runtime/mip_chain.h"
 #include "tools/treeplay/shaders.h"
 
 #include <algorithm>
@@ -8,13 +7,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace copse::treeplay {
 
 Result<SurfacePass> SurfacePass::make() {
   using namespace shaders;
   SurfacePass pass;
-  auto coverage = Program::make("coverage", k_common, k_surface_vertex, k_coverage_fragment);
+  const std::string fading = std::string(k_common) + std::string(k_fade);
+  auto coverage = Program::make("coverage", fading, k_surface_vertex, k_coverage_fragment);
   if (!coverage) return std::unexpected(coverage.error());
   auto light = Program::make("surface", k_common, k_surface_vertex, k_surface_fragment);
   if (!light) return std::unexpected(light.error());
@@ -26,13 +27,13 @@ Result<SurfacePass> SurfacePass::make() {
   return pass;
 }
 
-std::size_t SurfacePass::upload_image(const Image& image, float cutoff) {
+std::size_t SurfacePass::upload_image(const std::vector<MipLevel>& mips) {
   images_.push_back(make_texture());
   glBindTexture(GL_TEXTURE_2D, images_.back().get());
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   GLint level = 0;
-  for (const MipLevel& mip : mip_chain(image.rgba, image.width, image.height, cutoff)) {
+  for (const MipLevel& mip : mips) {
     if (mip.width > largest || mip.height > largest) continue;  // begins with the largest that fits
     glTexImage2D(GL_TEXTURE_2D, level++, GL_SRGB8_ALPHA8, mip.width, mip.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                  mip.rgba.data());
@@ -104,13 +105,33 @@ Result<void> SurfacePass::upload(const Scene& scene) {
     glVertexAttribDivisor(index, 1);
   }
   if (!scene.eco) {
-    add_group(scene, g.ranges);
+    const Ranges all[] = {g.ranges};
+    add_groups(scene, all);
     show({{DrawCopy{}}}, {});
   }
   return check_gl("uploading the model");
 }
 
-std::uint32_t SurfacePass::add_group(const Scene& scene, std::span<const DrawRange> ranges) {
+void SurfacePass::add_groups(const Scene& scene, std::span<const Ranges> groups) {
+  upload_textures(scene, groups);
+  for (const Ranges& ranges : groups) add_group(scene, ranges);
+}
+
+void SurfacePass::upload_textures(const Scene& scene, std::span<const Ranges> groups) {
+  std::vector<WantedTexture> wanted;
+  for (const Ranges& ranges : groups)
+    for (const DrawRange& range : ranges) {
+      const Material m = material_of(scene, range);
+      const WantedTexture texture{m.texture, m.alpha_cutoff};
+      if (m.texture < scene.textures.size() && uploaded_.try_emplace(texture).second)
+        wanted.push_back(texture);
+    }
+  const auto read = read_textures(scene, wanted);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (read[i]) uploaded_[wanted[i]] = upload_image(*read[i]);
+}
+
+void SurfacePass::add_group(const Scene& scene, Ranges ranges) {
   const auto group = static_cast<std::uint32_t>(shown_.size());
   shown_.emplace_back();
   for (const DrawRange& range : ranges) {
@@ -125,16 +146,12 @@ std::uint32_t SurfacePass::add_group(const Scene& scene, std::span<const DrawRan
     r.thin = range.part == DrawPart::leaves || (range.part == DrawPart::mesh && cut_out) ? 1.0f : 0.0f;
     r.repeats = r.ground || leaves_unit_square(scene.geometry, range);
     const std::uint32_t t = r.material.texture;
-    const auto [known, is_new] = uploaded_.try_emplace({t, r.material.alpha_cutoff}, 0);
-    if (t < scene.images.size() && scene.images[t]) {
-      if (is_new) known->second = upload_image(*scene.images[t], r.material.alpha_cutoff);
-      r.image = known->second;
-    } else {
-      r.image = flat_image(t == k_none ? Float3{1, 1, 1} : r.material.mean_colour);
-    }
+    const auto known = uploaded_.find({t, r.material.alpha_cutoff});
+    r.image = known != uploaded_.end() && known->second
+                  ? *known->second
+                  : flat_image(t == k_none ? Float3{1, 1, 1} : r.material.mean_colour);
     ranges_.push_back(std::move(r));
   }
-  return group;
 }
 
 void SurfacePass::replace(const std::vector<std::uint32_t>& indices, const std::vector<DrawRange>& ranges) {
@@ -224,8 +241,10 @@ void SurfacePass::draw_shadow(const Mat4& clip) const {
   draw(shadow_, false);
 }
 
-void SurfacePass::draw_coverage(const Mat4& clip, const Float3& offset, bool multisampled) const {
+void SurfacePass::draw_coverage(const Mat4& clip, const Float3& offset, const Float2& corner,
+                                bool multisampled) const {
   coverage_.use();
+  coverage_.set("tile_corner", corner);
   coverage_.set("image", 0);
   coverage_.set("clip", clip);
   coverage_.set("offset", offset);

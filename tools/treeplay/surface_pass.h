@@ -3,11 +3,12 @@
 
 #include "tools/treeplay/gl.h"
 #include "tools/treeplay/scene.h"
+#include "tools/treeplay/texture_reader.h"
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace copse::treeplay {
@@ -19,8 +20,10 @@ class SurfacePass {
   // of an ecosystem are added one by one.
   Result<void> upload(const Scene& scene);
 
-  // Ranges that are drawn together, once for each copy that is shown; answers the group's number, from 0.
-  std::uint32_t add_group(const Scene& scene, std::span<const DrawRange> ranges);
+  // Groups of ranges that are drawn together, once for each copy that is shown; they are numbered from 0.
+  // Reads the textures that no group had before.
+  using Ranges = std::span<const DrawRange>;
+  void add_groups(const Scene& scene, std::span<const Ranges> groups);
 
   // Other triangles of the same vertices: ranges as many as the scene's, in its order.
   void replace(const std::vector<std::uint32_t>& indices, const std::vector<DrawRange>& ranges);
@@ -35,7 +38,8 @@ class SurfacePass {
   // Into the bound depth-only framebuffer.
   void draw_shadow(const Mat4& clip) const;
   // Depth first, so that the costly second pass runs once a fragment: `clip` takes camera-relative positions.
-  void draw_coverage(const Mat4& clip, const Float3& offset, bool multisampled) const;
+  // `corner`: of the tile in the picture, in fragments.
+  void draw_coverage(const Mat4& clip, const Float3& offset, const Float2& corner, bool multisampled) const;
   // The program's uniforms of the common part must have been set. ghost: 0 as it is, 1 faded away.
   void draw_light(const Mat4& clip, const Float3& offset, bool lit, float ghost, float haze_distance) const;
   const Program& light_program() const { return light_; }
@@ -52,7 +56,9 @@ class SurfacePass {
     bool repeats = false;  // its texture coordinates leave [0, 1]
   };
   void draw(const Program& program, bool with_light) const;
-  std::size_t upload_image(const Image& image, float cutoff);
+  void upload_textures(const Scene& scene, std::span<const Ranges> groups);
+  void add_group(const Scene& scene, Ranges ranges);
+  std::size_t upload_image(const std::vector<MipLevel>& mips);
   std::size_t flat_image(const Float3& linear_colour);
 
   Program coverage_, light_, shadow_;
@@ -68,8 +74,9 @@ class SurfacePass {
   std::vector<Shown> shown_;        // one a group
   std::vector<DrawCopy> gathered_;  // of show(), kept for its memory
   std::vector<Texture2> images_;
-  // A texture's mip levels depend on the alpha cutoff, so a pair of both is an image.
-  std::map<std::pair<std::uint32_t, float>, std::size_t> uploaded_;
+  // A texture's mip levels depend on the alpha cutoff, so a pair of both is an image; none: it cannot be
+  // read.
+  std::map<WantedTexture, std::optional<std::size_t>> uploaded_;
   Sampler repeating_, clamping_;
   std::vector<Range> ranges_;
 };

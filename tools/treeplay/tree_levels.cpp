@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -30,32 +29,14 @@ void TreeLevels::add_vertices(const Spectrum& spectrum) {
     base_.vertices.push_back({v.position, v.normal, v.texcoord});
 }
 
-namespace {
-
-Result<std::optional<TreeImpostor>> read_pictures(const TreeFile& file) {
-  auto atlas = read_impostor(file);
-  if (!atlas) return std::unexpected(atlas.error());
-  if (atlas->empty()) return std::nullopt;
-  TreeImpostor out{.atlas = std::move(*atlas), .albedo = {}, .normals = {}};
-  for (const auto& [image, png, name] : {std::tuple{&out.albedo, &out.atlas.albedo, "IMPA"},
-                                         std::tuple{&out.normals, &out.atlas.normal, "IMPN"}}) {
-    auto read = read_image(png->span(), fmt::format("{}, section {}", file.container().name(), name));
-    if (!read) return std::unexpected(read.error());
-    *image = std::move(*read);
-  }
-  return out;
-}
-
-}  // namespace
-
 Result<std::shared_ptr<const TreeLevels>> TreeLevels::load(const TreeFile& file, const Tree& tree) {
   if (!has_spectra(file.container())) return std::shared_ptr<const TreeLevels>();
   auto spectra = load_spectra(file.container(), tree.radius_count(), tree.materials.size());
   if (!spectra) return std::unexpected(spectra.error());
-  auto impostor = read_pictures(file);
-  if (!impostor) return std::unexpected(impostor.error());
+  auto atlas = read_impostor(file);
+  if (!atlas) return std::unexpected(atlas.error());
   const std::shared_ptr<TreeLevels> levels(new TreeLevels(std::move(*spectra), tree));
-  levels->impostor_ = std::move(*impostor);
+  if (!atlas->empty()) levels->impostor_ = {std::move(*atlas), file.container().name()};
   return levels;
 }
 

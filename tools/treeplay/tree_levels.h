@@ -1,7 +1,6 @@
 // The levels of detail of a tree that is drawn: which one is shown, and its triangles.
 #pragma once
 
-#include "lib/formats/import/image.h"
 #include "lib/formats/impostors.h"
 #include "lib/formats/result.h"
 #include "lib/formats/spectrum.h"
@@ -14,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace copse::treeplay {
@@ -37,10 +37,10 @@ struct ShownLevel {
   friend bool operator==(const ShownLevel&, const ShownLevel&) = default;
 };
 
-// The pictures that stand for a tree behind its last level.
+// The pictures that stand for a tree behind its last level, as they are stored.
 struct TreeImpostor {
   ImpostorAtlas atlas;
-  Image albedo, normals;
+  std::string file;  // that holds them
 };
 
 class TreeLevels {
