@@ -208,6 +208,18 @@ TEST_F(Treedump, ExportsEveryFormatWithEveryTriangle) {
   }
 }
 
+TEST_F(Treedump, ATextureInTheFileIsToldWithItsSize) {
+  Tree tree = sensitive();
+  tree.textures[1] = {.uri = {}, .mime = "image/png", .bytes = std::vector<std::uint8_t>(1234, 7)};
+  tree.materials[2].texture = 1;
+  const std::string file = save("oak.stree", tree);
+  EXPECT_NE(dump({file}).out.find("embedded image/png, 1.2"), std::string::npos) << dump({file}).out;
+  bool found = false;
+  for (const json& texture : json::parse(dump({file, "--json"}).out)["textures"])
+    found |= texture["embedded_bytes"] == 1234;
+  EXPECT_TRUE(found);
+}
+
 TEST_F(Treedump, TexturesAreFoundFromTheExportedFile) {
   Tree tree = sensitive();
   tree.textures[1] = {.uri = "tex/leaf 1.png", .mime = {}, .bytes = {}};

@@ -97,14 +97,14 @@ TEST_F(Treeprep, AcceptsWhatObeysTheStrictModel) {
 }
 
 TEST_F(Treeprep, NamesEveryBreachOfTheStrictModel) {
-  // A ring of five, and a quad for a leaf.
+  // No textures, and a quad for a leaf.
   const Outcome o =
       prepare(input(little_tree_obj(5, 4, 3, "v 9 9 9\nv 10 9 9\nv 10 10 9\nv 9 10 9\nf -4 -3 -2 -1\n")),
               {"--strict"});
   EXPECT_EQ(o.status, 1);
   EXPECT_EQ(line_count(o.err), 1u) << o.err;
   EXPECT_NE(o.err.find("rules"), std::string::npos) << o.err;
-  for (const char* rule : {"rule 1: ", "rule 3.2: ", "rule 4.5: "})
+  for (const char* rule : {"rule 1: ", "rule 3.1: ", "rule 4.7: "})
     EXPECT_NE(o.out.find(rule), std::string::npos) << rule << " in " << o.out;
 }
 
@@ -124,6 +124,13 @@ TEST_F(Treeprep, LeavesOutWhatIsNotWantedAndSaysSo) {
     EXPECT_NE(std::find(file->omitted().begin(), file->omitted().end(), gone), file->omitted().end()) << gone;
   }
   EXPECT_TRUE(file->has("TTRI"));
+  ASSERT_EQ(prepare(input(little_tree_obj()),
+                    {"--omit", "leaves,lines", "--report", folder_.file("omit.json")}, "omit.stree")
+                .status,
+            0);
+  const std::string report = read_text(folder_.file("omit.json"));
+  for (const char* told : {"\"left out\"", "TLIN", "LGRP", "never made"})
+    EXPECT_NE(report.find(told), std::string::npos) << told;
   ASSERT_EQ(prepare(input(little_tree_obj()), {"--only", "lines"}, "only.stree").status, 0);
   const auto only = TreeFile::open(folder_.file("only.stree"));
   ASSERT_TRUE(only);

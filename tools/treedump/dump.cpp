@@ -78,9 +78,11 @@ void note(Dump& dump, const Error& error) {
   if (!dump.problem) dump.problem = error;
 }
 
-// Reads one section of `file` into `tree`; what fails leaves it empty.
+// Reads one section of `file` into `tree`; what fails leaves it empty. Textures come with their images.
 void load_section(Dump& dump, const std::string& name) {
-  auto part = dump.file->load({name});
+  if (name == "TDAT") return;
+  auto part = name == "TEXR" ? dump.file->load({"TEXR", "TDAT"}) : dump.file->load({name});
+  if (!part && name == "TEXR") note(dump, part.error()), part = dump.file->load({name});
   if (!part && part.error().fault == Fault::usage) return;  // what other tools have added is read elsewhere
   if (!part) return note(dump, part.error());
   if (name == "PROV") dump.tree.provenance = std::move(part->provenance);

@@ -81,13 +81,15 @@ void add_hierarchy(std::string& out, const Dump& dump) {
   const auto terminals = std::count_if(dump.tree.hierarchy.radii.begin(), dump.tree.hierarchy.radii.end(),
                                        [](const Radius& r) { return (r.flags & Radius::terminal) != 0; });
   add(out, "hierarchy",
-      listed(
-          {count_text(c.radii, "radius"), count_text(h.roots, "root"),
-           dump.tree.hierarchy.radii.empty() ? std::string()
-                                             : count_text(static_cast<std::uint64_t>(terminals), "terminal"),
-           h.ring_size != 0 ? fmt::format("{} each", count_text(h.ring_size, "vertex"))
-                            : "vertices that vary in number",
-           h.monotone ? "diameters never grow towards the tips" : "some diameters grow towards the tips"}));
+      listed({count_text(c.radii, "radius"), count_text(h.roots, "root"),
+              dump.tree.hierarchy.radii.empty()
+                  ? std::string()
+                  : count_text(static_cast<std::uint64_t>(terminals), "terminal"),
+              h.ring_size != 0 ? fmt::format("{} each", count_text(h.ring_size, "vertex"))
+                               : "vertices that vary in number",
+              c.radii == 0 ? ""
+              : h.monotone ? "diameters never grow towards the tips"
+                           : "some diameters grow towards the tips"}));
 }
 
 void add_leaves(std::string& out, const Dump& dump) {
@@ -183,7 +185,7 @@ void add_omissions(std::string& out, const Dump& dump) {
                      share_text(saved, dump.container.size() + saved));
   for (const Omitted& omitted : dump.file->omissions()) {
     out += fmt::format("  {:<7}  {:<32}  {:>9}\n", omitted.name, describe_section(omitted.name),
-                       bytes_text(omitted.bytes));
+                       omitted.bytes > 0 ? bytes_text(omitted.bytes) : "never made");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -26,6 +27,7 @@ Table counts_table(const Findings& f) {
   add("leaf triangles", f.classes.leaf_triangles);
   add("leaves", f.classes.leaf_count);
   add("leaf groups", f.tree.leaves.groups.size());
+  if (f.merged_groups > 0) add("leaf groups made part of another", f.merged_groups);
   add("roots", roots);
   add("radii", f.hierarchy.radii.size());
   add("branches", branches);
@@ -55,19 +57,30 @@ Table skeleton_table(const Findings& f) {
   return table;
 }
 
-Table components_table(const Classification& classes) {
+Table components_table(const Mesh& mesh, const Classification& classes) {
   struct Sum {
-    std::uint64_t components = 0, triangles = 0;
+    std::uint64_t components = 0, triangles = 0, first = 0;
   };
-  std::map<std::pair<PartClass, std::string_view>, Sum> sums;
-  for (const Component& c : classes.components) {
-    Sum& sum = sums[{c.kind, c.reason}];
+  std::vector<std::uint64_t> first(classes.components.size(), mesh.triangles.size());
+  for (std::size_t t = classes.component_of.size(); t-- > 0;) first[classes.component_of[t]] = t;
+  std::map<std::tuple<PartClass, std::string_view, std::string_view>, Sum> sums;
+  for (std::size_t i = 0; i < classes.components.size(); ++i) {
+    const Component& c = classes.components[i];
+    const std::uint32_t material = mesh.parts[c.part].material;
+    const std::string_view name = material == k_none ? std::string_view() : mesh.materials[material].name;
+    const auto [at, is_new] = sums.try_emplace({c.kind, c.reason, name});
+    Sum& sum = at->second;
+    if (is_new) sum.first = first[i];
     ++sum.components, sum.triangles += c.triangles;
   }
-  Table table{"trunk and leaves, and why", {"class", "why", "components", "triangles"}, {}};
+  Table table{"trunk and leaves, and why",
+              {"class", "why", "material", "components", "triangles", "first triangle"},
+              {}};
   for (const auto& [key, sum] : sums) {
-    table.rows.push_back({key.first == PartClass::trunk ? "trunk" : "leaf", std::string(key.second),
-                          count(sum.components), count(sum.triangles)});
+    const auto& [kind, why, material] = key;
+    table.rows.push_back({kind == PartClass::trunk ? "trunk" : "leaf", std::string(why),
+                          std::string(material), count(sum.components), count(sum.triangles),
+                          count(sum.first)});
   }
   return table;
 }
@@ -81,7 +94,7 @@ ErrorRecord record(const char* name, const ErrorDistribution& d, const char* uni
 void report_findings(const Findings& findings, Report& report) {
   report.tables.push_back(counts_table(findings));
   if (!findings.hierarchy.radii.empty()) report.tables.push_back(skeleton_table(findings));
-  report.tables.push_back(components_table(findings.classes));
+  report.tables.push_back(components_table(findings.mesh, findings.classes));
   if (findings.hierarchy.notes.empty()) return;
   Table notes{"about the skeleton", {"note"}, {}};
   for (const std::string& note : findings.hierarchy.notes) notes.rows.push_back({note});
@@ -97,10 +110,11 @@ void report_errors(const CylinderError& error, Report& report) {
       {"trunk area unexplained", 1 - error.explained_area, "ratio", {}, {}, {}, "input mesh"});
 }
 
-void report_left_out(const std::vector<std::pair<std::string, std::uint64_t>>& saved, Report& report) {
-  if (saved.empty()) return;
-  Table table{"left out", {"part", "bytes saved"}, {}};
-  for (const auto& [name, bytes] : saved) table.rows.push_back({name, count(bytes)});
+void report_left_out(const std::vector<Omitted>& omitted, Report& report) {
+  if (omitted.empty()) return;
+  Table table{"left out", {"section", "bytes saved"}, {}};
+  for (const Omitted& o : omitted)
+    table.rows.push_back({o.name, o.bytes > 0 ? count(o.bytes) : std::string("never made")});
   report.tables.push_back(std::move(table));
 }
 

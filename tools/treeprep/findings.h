@@ -5,6 +5,7 @@
 #include "lib/analysis/measure/cylinder_error.h"
 #include "lib/analysis/rings/hierarchy.h"
 #include "lib/analysis/surface/trunk_mesh.h"
+#include "lib/formats/omit.h"
 #include "lib/formats/report.h"
 #include "lib/formats/tree.h"
 
@@ -16,6 +17,7 @@ struct Findings {
   const TrunkMesh& trunk;
   const Hierarchy& hierarchy;
   const Tree& tree;
+  std::uint32_t merged_groups = 0;  // by --max-leaf-groups
 };
 
 // Counts, where the hierarchy comes from, and the components by class and reason.
@@ -24,7 +26,7 @@ void report_findings(const Findings& findings, Report& report);
 // The error of the generalized cylinders, as shares of radius and height, and the shares explained.
 void report_errors(const CylinderError& error, Report& report);
 
-// What --omit and --only left out and what that saved.
-void report_left_out(const std::vector<std::pair<std::string, std::uint64_t>>& saved, Report& report);
+// What --omit and --only left out and what that saved; nothing is known of what was not even computed.
+void report_left_out(const std::vector<Omitted>& omitted, Report& report);
 
 }  // namespace copse::treeprep

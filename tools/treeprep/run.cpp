@@ -108,10 +108,15 @@ Result<Analysis> analyse(Input& input, const Options& options, TreeKind kind, co
 }
 
 // The measures and pictures that only a report or a page shows.
-Result<void> report_stage(const Input& input, const Analysis& a, Context& context) {
+Result<void> report_stage(const Input& input, const Analysis& a, const LeftOut& left_out, Context& context) {
   Report& report = context.report();
-  report_findings({input.mesh, a.classes, a.trunk, a.hierarchy, a.assembled.tree}, report);
   if (context.options().report.empty() && context.options().html.empty()) return {};
+  report_findings({input.mesh, a.classes, a.trunk, a.hierarchy, a.assembled.tree, a.leaves.merged}, report);
+  if (!left_out.sections.empty()) {
+    const auto reduced = leave_out(a.assembled.tree, left_out.sections);
+    if (!reduced) return std::unexpected(reduced.error());
+    report_left_out(reduced->omitted, report);
+  }
   {
     Stage stage = context.stage("measure");
     stage.items(a.trunk.triangles.size(), "trunk triangles");
@@ -193,7 +198,7 @@ Result<void> run(const Options& options, Context& context) {
   auto analysis = analyse(*input, options, *kind, *left_out, context);
   if (!analysis) return std::unexpected(analysis.error());
   if (const auto ok = write_stage(options, *analysis, *left_out, context); !ok) return ok;
-  return report_stage(*input, *analysis, context);
+  return report_stage(*input, *analysis, *left_out, context);
 }
 
 }  // namespace copse::treeprep
