@@ -27,6 +27,9 @@ T tangent(const std::vector<PathKey>& keys, std::size_t i, const Value& value) {
   return slope(i - 1, i) * (after / (before + after)) + slope(i, i + 1) * (before / (before + after));
 }
 
+constexpr double k_advance = 0.9;  // of the way to the target
+constexpr double k_zigzag = std::numbers::pi / 4;
+
 Camera turned(const Camera& camera, double angle) {
   Camera c = camera;
   const Double3 arm = camera.eye - camera.target;
@@ -47,6 +50,10 @@ CameraPath CameraPath::orbit(const Camera& camera) {
 
 CameraPath CameraPath::linear(const Camera& camera) {
   return {Kind::linear, {{0, camera}}};
+}
+
+CameraPath CameraPath::zigzag(const Camera& camera) {
+  return {Kind::zigzag, {{0, camera}}};
 }
 
 Result<CameraPath> CameraPath::through(std::vector<PathKey> keys) {
@@ -71,9 +78,11 @@ Camera CameraPath::at(double t) const {
       return first;
     case Kind::orbit:
       return turned(first, 2 * std::numbers::pi * t);
+    case Kind::zigzag:
+      return on_leg(t);
     case Kind::linear: {
       Camera c = first;
-      const Double3 step = (first.target - first.eye) * (0.9 * t);
+      const Double3 step = (first.target - first.eye) * (k_advance * t);
       c.eye += step;
       c.target += step;
       return c;
@@ -82,6 +91,23 @@ Camera CameraPath::at(double t) const {
       return between_keys(t);
   }
   return first;
+}
+
+Camera CameraPath::on_leg(double t) const {
+  const Camera& first = keys_.front().camera;
+  const Double3 sight = first.target - first.eye;
+  // Three legs, each longer than its share of the way by 1 / cos(45 degrees).
+  const auto leg = [&](int i) {
+    const Camera there = turned({.eye = sight, .target = {}}, i == 1 ? -k_zigzag : k_zigzag);
+    return there.eye;
+  };
+  const int now = std::clamp(static_cast<int>(3 * t), 0, 2);
+  const double stretch = k_advance / std::cos(k_zigzag);
+  Camera c = first;
+  for (int i = 0; i < now; ++i) c.eye += leg(i) * (stretch / 3);
+  c.eye += leg(now) * (stretch * (t - now / 3.0));
+  c.target = c.eye + leg(now);
+  return c;
 }
 
 Camera CameraPath::between_keys(double t) const {

@@ -23,6 +23,9 @@ class CameraPath {
   static CameraPath orbit(const Camera& camera);
   // Straight ahead, looking where the camera looks, until a tenth of the way to the target is left.
   static CameraPath linear(const Camera& camera);
+  // The same way in three straight legs of equal time, 45 degrees to the left, to the right and to the left
+  // again, looking where it goes: what is in view changes at once at 1/3 and 2/3 (000, figure 6.6).
+  static CameraPath zigzag(const Camera& camera);
   // Through the keys, smoothly (cubic Hermite with the tangents of a non-uniform Catmull-Rom spline; the path
   // passes through every key exactly). Times must ascend strictly; they are mapped to t in [0, 1].
   static Result<CameraPath> through(std::vector<PathKey> keys);
@@ -35,8 +38,9 @@ class CameraPath {
   double moment(std::size_t frame, std::size_t count) const;
 
  private:
-  enum class Kind { still, orbit, linear, keys };
+  enum class Kind { still, orbit, linear, zigzag, keys };
   CameraPath(Kind kind, std::vector<PathKey> keys) : kind_(kind), keys_(std::move(keys)) {}
+  Camera on_leg(double t) const;
   Camera between_keys(double t) const;
 
   Kind kind_;

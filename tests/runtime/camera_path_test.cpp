@@ -38,6 +38,21 @@ TEST(CameraPath, LinearStopsATenthBeforeTheTargetAndLooksAhead) {
   EXPECT_NEAR(distance(end.eye - end.target, k_camera.eye - k_camera.target), 0, 1e-12);
 }
 
+TEST(CameraPath, ZigzagGoesInThreeEqualLegsAndTurnsAtOnceByARightAngle) {
+  const Camera start{.eye = {0, 2, 10}, .target = {0, 2, 0}};
+  const CameraPath path = CameraPath::zigzag(start);
+  const double leg = distance(path.at(0).eye, path.at(1.0 / 3).eye);
+  EXPECT_NEAR(distance(path.at(1.0 / 3).eye, path.at(2.0 / 3).eye), leg, 1e-9);
+  EXPECT_NEAR(distance(path.at(2.0 / 3).eye, path.at(1).eye), leg, 1e-9);
+  EXPECT_NEAR(path.at(1).eye.z, 1, 1e-9) << "a tenth of the way is left";
+  EXPECT_LT(path.at(1.0 / 3).eye.x, -1) << "to the left first";
+  const auto sight = [&](double t) { return path.at(t).target - path.at(t).eye; };
+  EXPECT_NEAR(dot(sight(0.333), sight(0.334)), 0, 1e-9);
+  EXPECT_NEAR(length(cross(sight(0.2), path.at(0.3).eye - path.at(0.1).eye)), 0, 1e-9)
+      << "looks where it goes";
+  EXPECT_NEAR(length(sight(0.5)), 10, 1e-9);
+}
+
 Camera at(double x, double fov = 0.5) {
   return {.eye = {x, x * x, 5}, .target = {x, 0, 0}, .fov = fov};
 }

@@ -21,9 +21,6 @@ void free_sampler(GLuint name) {
 void free_framebuffer(GLuint name) {
   glDeleteFramebuffers(1, &name);
 }
-void free_renderbuffer(GLuint name) {
-  glDeleteRenderbuffers(1, &name);
-}
 void free_program(GLuint name) {
   glDeleteProgram(name);
 }
@@ -52,11 +49,6 @@ Framebuffer make_framebuffer() {
   GLuint name = 0;
   glGenFramebuffers(1, &name);
   return Framebuffer(name);
-}
-Renderbuffer make_renderbuffer() {
-  GLuint name = 0;
-  glGenRenderbuffers(1, &name);
-  return Renderbuffer(name);
 }
 
 namespace {

@@ -38,7 +38,6 @@ void free_vertex_array(GLuint name);
 void free_texture(GLuint name);
 void free_sampler(GLuint name);
 void free_framebuffer(GLuint name);
-void free_renderbuffer(GLuint name);
 void free_program(GLuint name);
 
 using Buffer = Handle<free_buffer>;
@@ -46,14 +45,12 @@ using VertexArray = Handle<free_vertex_array>;
 using Texture2 = Handle<free_texture>;
 using Sampler = Handle<free_sampler>;
 using Framebuffer = Handle<free_framebuffer>;
-using Renderbuffer = Handle<free_renderbuffer>;
 
 Buffer make_buffer();
 VertexArray make_vertex_array();
 Texture2 make_texture();
 Sampler make_sampler();
 Framebuffer make_framebuffer();
-Renderbuffer make_renderbuffer();
 
 // A linked pair of shaders. Uniforms are set by name; a name that the compiler has dropped is ignored.
 class Program {

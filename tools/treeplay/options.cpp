@@ -77,7 +77,7 @@ bool is_sample_count(int samples) {
 }
 
 bool is_path(const std::string& text) {
-  return text.empty() || text == "orbit" || text == "linear" || text.ends_with(".json");
+  return text.empty() || text == "orbit" || text == "linear" || text == "zigzag" || text.ends_with(".json");
 }
 
 Look look_of(const Options& options) {
@@ -135,8 +135,10 @@ void add_options(CLI::App& app, Options& options) {
           "--camera", options.camera,
           "six numbers in metres, and the vertical angle of view in degrees (default: fits the model)")
       ->type_name("EYE,TARGET[,FOV]");
-  camera->add_option("--path", options.path, "how the camera moves: orbit, linear, or keys from a JSON file")
-      ->type_name("orbit|linear|FILE.json");
+  camera
+      ->add_option("--path", options.path,
+                   "how the camera moves: orbit, linear, zigzag, or keys from a JSON file")
+      ->type_name("orbit|linear|zigzag|FILE.json");
 
   camera->add_flag("--above-ground", options.above_ground,
                    "the heights of --camera count from the terrain of an .eco, not from 0");
@@ -230,7 +232,7 @@ Result<Plan> understand(const Options& options) {
   plan.height = (*size)[1];
   if (!is_path(options.path)) {
     return usage(fmt::format("--path '{}' is not a path", options.path),
-                 "write orbit, linear or the name of a .json file");
+                 "write orbit, linear, zigzag or the name of a .json file");
   }
   plan.count = options.count.value_or(options.path.empty() ? 1 : 120);
   if (!options.frames.empty()) {
@@ -269,6 +271,7 @@ Result<CameraPath> make_path(const Options& options, const Camera& camera) {
   if (options.path.empty()) return CameraPath::still(camera);
   if (options.path == "orbit") return CameraPath::orbit(camera);
   if (options.path == "linear") return CameraPath::linear(camera);
+  if (options.path == "zigzag") return CameraPath::zigzag(camera);
   return read_path(options.path, camera.fov);  // understand() has seen to the name
 }
 
