@@ -1,6 +1,7 @@
 #include "lib/analysis/volumes/swept_bound.h"
 
 #include "lib/analysis/volumes/swept_search.h"
+#include "tests/volumes/hull_of.h"
 #include "tests/volumes/point_sets.h"
 
 #include <gtest/gtest.h>
@@ -82,6 +83,22 @@ TEST(SweptBound, HoldsForNeedlesThinnerThanItCanProveMuchAbout) {
       // In no frame can it be thinner than half the largest distance across the axis of some two points.
       EXPECT_LE(bound.lower_bound, swept_volume({2, 0, 2 * thin}));
     }
+  }
+}
+
+TEST(SweptBound, ProvesATenthOfNeedlesInWorkThatGrowsWithTheLogarithmOfTheirAspect) {
+  for (const double aspect : {1e3, 1e4, 1e5, 1e6}) {
+    Random random(6);
+    Points p = repeated(60, [&] { return in_box(random, {1, 1 / aspect, 1 / aspect}); });
+    const Axes frame = turned(k_world_axes, in_box(random, {1, 1, 1}));
+    for (Double3& q : p) q = into(frame, q);
+    const ConvexHull hull = hull_of(p);
+    SweptFit best = search_around(Swept::lozenge, hull.vertices);
+    SweptBoundOptions options;
+    options.gap = 0.1, options.max_separations = 5000, options.least_radius = inner_radius(hull);
+    const SweptBound bound = bound_swept(Swept::lozenge, hull.vertices, options, best);
+    EXPECT_LE(best.volume(), bound.lower_bound * 1.1001) << aspect;
+    EXPECT_LE(static_cast<double>(bound.separations), 700 * std::log10(aspect)) << aspect;
   }
 }
 

@@ -18,6 +18,7 @@ constexpr double k_sticks_out = 1e-3;      // of the radius: a point that a sepa
 constexpr double k_least_progress = 0.15;  // of what a cell's bound lacks; less, and it is halved
 constexpr int k_search_depth = 9;          // cells no deeper than this try a descent
 constexpr double k_moves_far = 0.1;        // of the farthest: a coordinate that may be halved
+constexpr double k_swings_far = 0.1;       // the same, of a needle
 constexpr double k_promising = 1.05;       // volume after a rough descent, to the best: worth an exact one
 
 struct Cell {
@@ -41,24 +42,30 @@ class BranchAndBound {
                  SweptFit& best)
       : kind_(kind), points_(points), options_(options), best_(best), volume_(best.volume()) {
     for (const Double3& p : points) reach_ = std::max(reach_, length(p));
+    if (kind == Swept::lozenge) look_for_needle();
   }
   SweptBound run();
 
  private:
   void plant();
+  void look_for_needle();
   void push(Cell cell);
   void process(Cell cell);
+  Double3 swings_of(const Cell& cell) const;
   int axis_to_halve(const Cell& cell) const;
   void halve(const Cell& cell, const LengthPolytope& polytope);
   bool outside(const RotationCell& cell) const;
   LengthPolytope polytope_of(const Cell& cell) const;
+  double least_lean(const Cell& cell, int side) const;
   void cut(LengthPolytope& polytope, std::uint32_t plane, const RotationCell& cell) const;
   void separate_from(const Cell& cell, const Axes& frame, const SweptLengths& lengths,
                      SeparationState& state);
   bool add_missed(const Axes& frame, const SeparationState& state, std::vector<std::uint32_t>& working) const;
   void search(const Cell& cell, const Axes& start);
   bool spent() const;
-  int own_cuts() const { return options_.least_radius > 0 ? 1 : 0; }  // of every polytope, before the planes
+  // Of every polytope, before the planes.
+  int own_cuts() const { return (options_.least_radius > 0 ? 1 : 0) + (is_needle() ? 2 : 0); }
+  bool is_needle() const { return needle_ != Double3{}; }
   double target() const { return volume_ / (1 + options_.gap); }
 
   Swept kind_;
@@ -66,6 +73,7 @@ class BranchAndBound {
   SweptBoundOptions options_;
   SweptFit& best_;
   double volume_, reach_ = 0;
+  Double3 needle_;              // between two points far apart, of thin points round a lozenge; else 0
   double closed_ = k_infinity;  // the least bound of the cells that are done with
   std::vector<ForcePlane> pool_;
   std::priority_queue<Cell, std::vector<Cell>, Later> open_;
@@ -78,13 +86,15 @@ class BranchAndBound {
 void BranchAndBound::plant() {
   const bool capsule = kind_ == Swept::capsule;
   const double half = capsule ? 1 : k_cube_half, offset = half / 3;
-  // The best frame comes to lie a third off the centre, never on the border of a cell.
-  const Axes base = orthonormal(turned(best_.frame, {capsule ? 0 : offset, offset, -offset}));
+  // The best frame comes to lie a third off the centre, never on the border of a cell; of a needle on the
+  // line of frames that turn about it, so that cells as thin as it can hold all of them.
+  const Double3 turn{capsule ? 0 : offset, offset, -offset};
+  const Axes base = orthonormal(turned(best_.frame, is_needle() ? Double3{} : turn));
   for (int k = 0; k < (capsule ? 1 : 3); ++k) {
     Cell cell;
     cell.rotations.frame = {base[k], base[(k + 1) % 3], base[(k + 2) % 3]};
     cell.rotations.low = {capsule ? 0 : -half, -half, -half};
-    cell.rotations.high = -cell.rotations.low;
+    cell.rotations.high = -cell.rotations.low * (is_needle() ? 2 : 1);
     if (capsule) cell.rotations.low.x = cell.rotations.high.x = 0;
     cell.working = extreme_points(points_, cell.rotations.frame);
     push(std::move(cell));
@@ -112,8 +122,42 @@ LengthPolytope BranchAndBound::polytope_of(const Cell& cell) const {
   const double length = 2 * reach_ * (1 + 1e-12);
   LengthPolytope polytope(kind_, {length, length, r});
   if (options_.least_radius > 0) polytope.cut(0, 0, 1, options_.least_radius);
+  if (is_needle()) {
+    polytope.cut(1, 0, 2, least_lean(cell, 1));
+    polytope.cut(0, 1, 2, least_lean(cell, 0));
+  }
   for (const std::uint32_t plane : cell.planes) cut(polytope, plane, cell.rotations);
   return polytope;
+}
+
+// Two points far apart, when the others are near the line through them.
+void BranchAndBound::look_for_needle() {
+  constexpr double k_thin = 0.003;
+  DoubleBox box;
+  for (const Double3& p : points_) box.grow(into(best_.frame, p));
+  const Double3 e = box.extent();
+  const int along = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
+  if (std::max(e[(along + 1) % 3], e[(along + 2) % 3]) > k_thin * e[along]) return;
+  const auto less = [&](const Double3& p, const Double3& q) {
+    return dot(p, best_.frame[along]) < dot(q, best_.frame[along]);
+  };
+  const auto [low, high] = std::minmax_element(points_.begin(), points_.end(), less);
+  needle_ = *high - *low;
+}
+
+// How far the needle reaches across one side of the rectangle, at least, in the frames of the cell: across it
+// a lozenge is as wide as its other side and twice the radius. Forces at the needle's ends would tell the
+// same, but only once the cell is so small that they know the way that it leans.
+double BranchAndBound::least_lean(const Cell& cell, int side) const {
+  constexpr double k_rounding = 1e-14;
+  const double size = length(needle_);
+  double along = 0;
+  for (const double sign : {-1.0, 1.0}) {
+    ForcePlane plane;
+    plane.moment[side] = needle_ * (sign / size);
+    along = std::max(along, -range_over(plane, cell.rotations).least);
+  }
+  return size * std::sqrt(std::max(0.0, (1 - along) * (1 + along) - k_rounding));
 }
 
 void BranchAndBound::push(Cell cell) {
@@ -234,6 +278,21 @@ void BranchAndBound::process(Cell cell) {
   halve(cell, polytope);
 }
 
+// How far each coordinate of the cell turns the points about an axis at the root of the cells: turns about a
+// needle are as short as it is thin.
+Double3 BranchAndBound::swings_of(const Cell& cell) const {
+  constexpr double k_wide = 0.15;  // so wide that the polynomials of a cell tell little
+  DoubleBox box;
+  for (const std::uint32_t i : cell.working) box.grow(into(cell.rotations.frame, points_[i]));
+  const Double3 e = box.extent(), half = (cell.rotations.high - cell.rotations.low) * 0.5;
+  const double longest = std::max({e.x, e.y, e.z});
+  const auto swing = [&](int k) {
+    const double reach = half[k] > k_wide ? longest : std::max(e[(k + 1) % 3], e[(k + 2) % 3]);
+    return half[k] * reach;
+  };
+  return {swing(0), swing(1), swing(2)};
+}
+
 // The coordinate to halve: that over which the newest plane falls most, of those over which a turn moves the
 // points far: by what is of second order, which is what a separation misses, each way measured by what the
 // volume has there. (The plane alone would never choose a turn that is so free that no force resists it; the
@@ -248,10 +307,16 @@ int BranchAndBound::axis_to_halve(const Cell& cell) const {
                       half.y * half.y * (e.x / r + e.z / (e.x + r)),
                       half.z * half.z * (e.x / (kind_ == Swept::capsule ? r : e.y + r) + e.y / (e.x + r))};
   const Double3 drop = range_over(pool_[cell.planes.back()], cell.rotations).drop;
-  const double most = std::max({moves.x, moves.y, moves.z});
+  const Double3 swings = is_needle() ? swings_of(cell) : Double3{};
+  const double widest = std::max({swings.x, swings.y, swings.z});
+  const auto may = [&](int k) { return swings[k] >= widest * k_swings_far; };
+  double most = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (may(k)) most = std::max(most, moves[k]);
+  }
   int axis = -1;
   for (int k = 0; k < 3; ++k) {
-    if (moves[k] >= most * k_moves_far && (axis < 0 || drop[k] > drop[axis])) axis = k;
+    if (may(k) && moves[k] >= most * k_moves_far && (axis < 0 || drop[k] > drop[axis])) axis = k;
   }
   return axis;
 }

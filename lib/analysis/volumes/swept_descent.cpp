@@ -5,7 +5,7 @@
 namespace copse {
 namespace {
 
-constexpr double k_room = 1.05;        // a start is this much larger than it must be
+constexpr double k_room = 0.05;        // by which a start is larger than it must be
 constexpr std::size_t k_added = 6;     // points a round
 constexpr double k_first_gap = 1e-3;   // no exact optimum over points that are not yet the right ones
 constexpr double k_sticks_out = 1e-9;  // of the radius: less is left to the final growth
@@ -44,6 +44,15 @@ std::vector<Double3> chosen(std::span<const Double3> points, const std::vector<s
 
 }  // namespace
 
+// Strictly round all points, and with lengths: what is on the boundary cannot be descended from.
+void make_room(Swept kind, std::span<const Double3> points, double size, double room, SweptFit& fit) {
+  SweptRectangle& s = fit.rectangle;
+  s.r = std::max(reach_of(points, fit) * (1 + room), size * 1e-14);
+  const double least = s.r * 0.05, a = (s.a0 + s.a1) / 2, b = (s.b0 + s.b1) / 2;
+  if (s.a1 - s.a0 < least) s.a0 = a - least / 2, s.a1 = a + least / 2;
+  if (kind == Swept::lozenge && s.b1 - s.b0 < least) s.b0 = b - least / 2, s.b1 = b + least / 2;
+}
+
 SweptRectangle roomy_rectangle(Swept kind, std::span<const Double3> points, const Axes& frame) {
   DoubleBox box;
   for (const Double3& p : points) box.grow(into(frame, p));
@@ -52,13 +61,7 @@ SweptRectangle roomy_rectangle(Swept kind, std::span<const Double3> points, cons
   const Double3 middle = box.centre();
   s = {box.min.x, box.max.x, box.min.y, box.max.y, middle.z, 0};
   if (kind != Swept::lozenge) s.b0 = s.b1 = middle.y;
-  s.r = reach_of(points, fit);
-  const double size = std::max({box.extent().x, box.extent().y, box.extent().z});
-  s.r = std::max(s.r * k_room, size * 1e-14);
-  // Lengths of 0 would be on the boundary.
-  const double least = s.r * 0.05;
-  if (s.a1 - s.a0 < least) s.a0 = middle.x - least / 2, s.a1 = middle.x + least / 2;
-  if (kind == Swept::lozenge && s.b1 - s.b0 < least) s.b0 = middle.y - least / 2, s.b1 = middle.y + least / 2;
+  make_room(kind, points, std::max({box.extent().x, box.extent().y, box.extent().z}), k_room, fit);
   return s;
 }
 
@@ -106,6 +109,14 @@ SweptDescent::SweptDescent(Swept kind, std::span<const Double3> points, const Ax
     : kind_(kind), points_(points), fit_{orthonormal(start), {}} {
   working_ = extreme_points(points, fit_.frame);
   fit_.rectangle = roomy_rectangle(kind, points, fit_.frame);
+}
+
+SweptDescent::SweptDescent(Swept kind, std::span<const Double3> points, const SweptFit& start, double room)
+    : kind_(kind), points_(points), fit_(start) {
+  working_ = extreme_points(points, fit_.frame);
+  DoubleBox box;
+  for (const Double3& p : points) box.grow(p);
+  make_room(kind, points, std::max({box.extent().x, box.extent().y, box.extent().z}), room, fit_);
 }
 
 bool SweptDescent::is_done(const DescentOptions& options) const {

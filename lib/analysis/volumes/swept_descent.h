@@ -38,6 +38,9 @@ class SweptDescent {
  public:
   // `points`: at least one, |p| about 1 or less; they must outlive it.
   SweptDescent(Swept kind, std::span<const Double3> points, const Axes& start);
+  // From a rectangle in that frame, whose radius need not reach all points; a capsule's and a line's b0 = b1.
+  // `room`: by how much of the radius it then reaches beyond them.
+  SweptDescent(Swept kind, std::span<const Double3> points, const SweptFit& start, double room);
 
   // Called again, with a smaller gap, it goes on from where it has ended.
   void run(const DescentOptions& options = {});

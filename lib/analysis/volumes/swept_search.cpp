@@ -4,12 +4,15 @@
 #include "lib/analysis/volumes/principal_axes.h"
 
 #include <algorithm>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 namespace copse {
 namespace {
 
-constexpr double k_rough_gap = 0.005, k_narrow = 0.03;
+constexpr double k_rough_gap = 0.005, k_narrow = 0.03, k_room = 0.05;
+constexpr double k_narrowest = 1e-3, k_least_room = 1e-3;  // of starts that are in their valleys already
 constexpr int k_rough_rounds = 2;
 // Starts that are descended from. A small hull has few, deep valleys, and is quick.
 constexpr std::size_t k_small_hull = 60;
@@ -77,39 +80,67 @@ double circle_across(std::span<const Double3> local, Double3& centre) {
   return radius;
 }
 
-// The volume about the line or plane in the middle with sides as short as this radius lets them be.
-double cost_of_radius(bool flat, std::span<const Double3> local, const DoubleBox& box, const Double3& centre,
-                      double r) {
-  double a0 = box.max.x + r, a1 = box.min.x - r, b0 = box.max.y + r, b1 = box.min.y - r;
-  for (const Double3& q : local) {
-    const double y = flat ? 0 : q.y - centre.y, z = q.z - centre.z;
-    const double half = std::sqrt(std::max(0.0, r * r - y * y - z * z));
-    a0 = std::min(a0, q.x + half), a1 = std::max(a1, q.x - half);
-    b0 = std::min(b0, q.y + half), b1 = std::max(b1, q.y - half);
+// The points as a frame has them, and rectangles about the line or plane in their middle.
+class FrameLook {
+ public:
+  FrameLook(Swept kind, std::span<const Double3> points, const Axes& frame, std::vector<Double3>& local)
+      : kind_(kind), local_(local) {
+    local.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) box_.grow(local[i] = into(frame, points[i]));
+    centre_ = box_.centre();
+    thinnest_ = kind == Swept::lozenge ? box_.extent().z / 2 : circle_across(local, centre_);
+    widest_ = thinnest_ * thinnest_;
+    for (const Double3& q : local) widest_ = std::max(widest_, dot(q - centre_, q - centre_));
   }
-  return swept_volume({std::max(0.0, a1 - a0), flat ? std::max(0.0, b1 - b0) : 0, r});
-}
+
+  double thinnest() const { return thinnest_; }
+
+  // With sides as short as a radius lets them be: `bulge` 0: the thinnest; 1: a ball's. Holds all points.
+  SweptRectangle rectangle(double bulge) const {
+    const double square = thinnest_ * thinnest_ + bulge * bulge * (widest_ - thinnest_ * thinnest_);
+    const double r = std::sqrt(square);
+    const bool flat = kind_ == Swept::lozenge;
+    double a0 = box_.max.x + r, a1 = box_.min.x - r, b0 = box_.max.y + r, b1 = box_.min.y - r;
+    for (const Double3& q : local_) {
+      const double y = flat ? 0 : q.y - centre_.y, z = q.z - centre_.z;
+      const double half = std::sqrt(std::max(0.0, square - y * y - z * z));
+      a0 = std::min(a0, q.x + half), a1 = std::max(a1, q.x - half);
+      b0 = std::min(b0, q.y + half), b1 = std::max(b1, q.y - half);
+    }
+    if (a0 > a1) a0 = a1 = (a0 + a1) / 2;
+    if (!flat) b0 = b1 = centre_.y;
+    if (b0 > b1) b0 = b1 = (b0 + b1) / 2;
+    SweptFit fit{k_world_axes, {a0, a1, b0, b1, centre_.z, r}};
+    fit.rectangle.r = reach_of(local_, fit);  // corners, and ends that have crossed, may leave points out
+    return fit.rectangle;
+  }
+
+ private:
+  Swept kind_;
+  const std::vector<Double3>& local_;
+  DoubleBox box_;
+  Double3 centre_;
+  double thinnest_ = 0, widest_ = 0;
+};
 
 // How small it is in this frame, unturned and without care. The thinnest is not the least: caps that bulge
 // more shorten it, up to a ball's.
-double cost_in_frame(Swept kind, std::span<const Double3> points, const Axes& frame,
+struct Start {
+  double cost = std::numeric_limits<double>::infinity();
+  SweptFit fit;
+};
+Start start_in_frame(Swept kind, std::span<const Double3> points, const Axes& frame,
                      std::vector<Double3>& local) {
-  constexpr int k_radii = 5;
-  const bool flat = kind == Swept::lozenge;
-  DoubleBox box;
-  for (std::size_t i = 0; i < points.size(); ++i) box.grow(local[i] = into(frame, points[i]));
-  Double3 centre = box.centre();
-  const double thinnest = flat ? box.extent().z / 2 : circle_across(local, centre);
-  if (kind == Swept::line) return thinnest;
-  double widest = thinnest * thinnest;
-  for (const Double3& q : local) widest = std::max(widest, dot(q - centre, q - centre));
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < k_radii; ++k) {
-    const double bulge = static_cast<double>(k) / k_radii;
-    const double square = thinnest * thinnest + bulge * bulge * (widest - thinnest * thinnest);
-    least = std::min(least, cost_of_radius(flat, local, box, centre, std::sqrt(square)));
+  constexpr int k_bulges = 6;
+  Start start{.fit = {orthonormal(frame), {}}};
+  const FrameLook look(kind, points, start.fit.frame, local);
+  if (kind == Swept::line) return {look.thinnest(), {start.fit.frame, look.rectangle(0)}};
+  for (int k = 0; k < k_bulges; ++k) {
+    const SweptRectangle s = look.rectangle(static_cast<double>(k) / k_bulges);
+    if (const double volume = swept_volume(s.lengths()); volume < start.cost)
+      start.cost = volume, start.fit.rectangle = s;
   }
-  return least;
+  return start;
 }
 
 // How far one is turned from the other, of what tells them apart: the axis of a line or capsule, the axis
@@ -176,57 +207,118 @@ std::vector<Double3> looked_at(std::span<const Double3> points, const Axes& base
 }
 
 // The most promising of many frames, none near another.
-std::vector<Axes> promising_frames(Swept kind, std::span<const Double3> points, const Axes& base) {
+std::vector<SweptFit> promising_starts(Swept kind, std::span<const Double3> points, const Axes& base) {
   const bool small = points.size() < k_small_hull;
   const std::size_t wanted = kind == Swept::lozenge ? (small ? k_lozenge_kept_small : k_lozenge_kept)
                                                     : (small ? k_kept_small : k_kept);
-  struct Frame {
-    double cost;
-    Axes axes;
-  };
-  std::vector<Frame> all;
+  std::vector<Start> all;
   const std::vector<Double3> some = looked_at(points, base);
-  std::vector<Double3> local(some.size());
-  for (const Axes& f : many_frames(kind, points, base))
-    all.push_back({cost_in_frame(kind, some, f, local), f});
-  std::stable_sort(all.begin(), all.end(), [](const Frame& a, const Frame& b) { return a.cost < b.cost; });
-  std::vector<Axes> kept;
-  const auto keep = [&](const Axes& f) {
-    const bool near =
-        std::any_of(kept.begin(), kept.end(), [&](const Axes& k) { return likeness(kind, k, f) > k_alike; });
+  std::vector<Double3> local;
+  for (const Axes& f : many_frames(kind, points, base)) all.push_back(start_in_frame(kind, some, f, local));
+  std::stable_sort(all.begin(), all.end(), [](const Start& a, const Start& b) { return a.cost < b.cost; });
+  std::vector<SweptFit> kept;
+  const auto keep = [&](const SweptFit& f) {
+    const bool near = std::any_of(kept.begin(), kept.end(), [&](const SweptFit& k) {
+      return likeness(kind, k.frame, f.frame) > k_alike;
+    });
     if (!near && kept.size() < wanted) kept.push_back(f);
   };
   // First one a valley: of what is regular, the many images of one would leave no place for another.
   for (auto f = all.begin(); f != all.end(); ++f) {
-    const bool lowest = std::none_of(all.begin(), f, [&](const Frame& lower) {
-      return likeness(kind, lower.axes, f->axes) > k_same_valley;
+    const bool lowest = std::none_of(all.begin(), f, [&](const Start& lower) {
+      return likeness(kind, lower.fit.frame, f->fit.frame) > k_same_valley;
     });
-    if (lowest) keep(f->axes);
+    if (lowest) keep(f->fit);
   }
-  for (const Frame& f : all) keep(f.axes);
+  for (const Start& f : all) keep(f.fit);
   return kept;
+}
+
+// --- regular things
+// ---------------------------------------------------------------------------------------------------------
+
+// Lozenges across one axis, by turn about it and by radius.
+class TurnsAcross {
+ public:
+  TurnsAcross(std::span<const Double3> points, const Axes& axes, int across) {
+    std::vector<Double3> local;
+    for (int t = 0; t < k_turns; ++t) {
+      const double angle = std::numbers::pi / 2 * t / k_turns, c = std::cos(angle), s = std::sin(angle);
+      const Double3 &u = axes[(across + 1) % 3], &v = axes[(across + 2) % 3];
+      const Axes frame{u * c + v * s, v * c - u * s, axes[across]};
+      const FrameLook look(Swept::lozenge, points, frame, local);
+      for (int b = 0; b < k_bulges; ++b) fits_.push_back({frame, look.rectangle((b + 0.5) / k_bulges)});
+    }
+  }
+
+  // Those that are smaller than their neighbours, the least first.
+  std::vector<SweptFit> valleys(std::size_t most) const {
+    std::vector<SweptFit> out;
+    for (int t = 0; t < k_turns; ++t) {
+      for (int b = 0; b < k_bulges; ++b) {
+        const double v = volume(t, b);
+        if (v <= volume(t - 1, b) && v <= volume(t + 1, b) && v <= volume(t, b - 1) && v <= volume(t, b + 1))
+          out.push_back(fits_[index(t, b)]);
+      }
+    }
+    std::stable_sort(out.begin(), out.end(),
+                     [](const SweptFit& a, const SweptFit& b) { return a.volume() < b.volume(); });
+    if (out.size() > most) out.resize(most);
+    return out;
+  }
+
+ private:
+  static constexpr int k_turns = 24, k_bulges = 12;
+  static std::size_t index(int turn, int bulge) {
+    return static_cast<std::size_t>((turn + k_turns) % k_turns * k_bulges + bulge);
+  }
+  double volume(int turn, int bulge) const {
+    if (bulge < 0 || bulge >= k_bulges) return std::numeric_limits<double>::infinity();
+    return fits_[index(turn, bulge)].volume();
+  }
+  std::vector<SweptFit> fits_;
+};
+
+// What is regular about an axis spreads equally across it, and may have its least lozenge across that axis,
+// in one of many narrow valleys of turns about it and of radii.
+std::vector<SweptFit> regular_starts(std::span<const Double3> points, const PrincipalAxes& spread) {
+  constexpr double k_equal = 1e-3;
+  constexpr std::size_t k_wanted = 8;  // an axis
+  std::vector<SweptFit> out;
+  for (int k = 0; k < 3; ++k) {
+    const double u = spread.variances[(k + 1) % 3], v = spread.variances[(k + 2) % 3];
+    if (std::abs(u - v) > k_equal * u) continue;
+    const std::vector<SweptFit> valleys = TurnsAcross(points, spread.axes, k).valleys(k_wanted);
+    out.insert(out.end(), valleys.begin(), valleys.end());
+  }
+  return out;
 }
 
 }  // namespace
 
 SweptFit search_around(Swept kind, std::span<const Double3> points, const Deadline& deadline) {
-  const Axes base = principal_axes(points).axes;
+  const PrincipalAxes spread = principal_axes(points);
   std::vector<SweptDescent> scouts;
   double least = std::numeric_limits<double>::infinity();
-  for (const Axes& start : promising_frames(kind, points, base)) {
-    if (!scouts.empty() && deadline.has_passed()) break;
-    scouts.emplace_back(kind, points, start);
-    scouts.back().run({k_rough_gap, k_rough_rounds, k_narrow, least});
-    least = std::min(least, scouts.back().cost());
-  }
+  const auto scout = [&](const std::vector<SweptFit>& starts, double gap, double room) {
+    for (const SweptFit& start : starts) {
+      if (!scouts.empty() && deadline.has_passed()) return;
+      scouts.emplace_back(kind, points, start, room);
+      scouts.back().run({k_rough_gap, k_rough_rounds, gap, least});
+      least = std::min(least, scouts.back().cost());
+    }
+  };
+  scout(promising_starts(kind, points, spread.axes), k_narrow, k_room);
+  if (kind == Swept::lozenge && points.size() < k_small_hull && !deadline.has_passed())
+    scout(regular_starts(points, spread), k_narrowest, k_least_room);
   std::stable_sort(scouts.begin(), scouts.end(),
                    [](const SweptDescent& a, const SweptDescent& b) { return a.cost() < b.cost(); });
   SweptFit best = scouts.front().fit();
-  for (SweptDescent& scout : scouts) {
+  for (SweptDescent& descent : scouts) {
     if (deadline.has_passed()) return best;
-    if (scout.least_cost() > least) continue;
-    scout.run({.hopeless = least});
-    if (scout.cost() < least) least = scout.cost(), best = scout.fit();
+    if (descent.least_cost() > least) continue;
+    descent.run({.hopeless = least});
+    if (descent.cost() < least) least = descent.cost(), best = descent.fit();
   }
   if (deadline.has_passed()) return best;
   // A narrow descent may have ended early.
