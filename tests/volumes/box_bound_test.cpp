@@ -1,7 +1,7 @@
 #include "lib/analysis/volumes/box_bound.h"
 
 #include "lib/analysis/volumes/vertex_widths.h"
-#include "tests/volumes/awkward_sets.h"
+#include "tests/volumes/point_sets.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "lib/analysis/volumes/certify.h"
 
-#include "tests/volumes/batteries.h"
+#include "tests/volumes/point_sets.h"
 
 #include <CGAL/Exact_rational.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include "lib/analysis/volumes/certify.h"
 #include "lib/analysis/volumes/minimal_sphere.h"
-#include "tests/volumes/batteries.h"
+#include "tests/volumes/point_sets.h"
 
 #include <gtest/gtest.h>
 
@@ -89,7 +89,7 @@ double needed(const Volume<double>& fit, const Volume<float>& stored, const Poin
 }
 
 TEST(Enclose, EveryVolumeOfTheBatteryIsCertifiedAsStored) {
-  for (const BatterySet& set : battery::all()) {
+  for (const NamedPoints& set : float32_battery()) {
     for (const bool turned : {false, true}) {
       for (const Volume<double>& fit : fits(set.points, turned)) {
         const auto e = enclose(fit, set.points);
@@ -103,7 +103,7 @@ TEST(Enclose, EveryVolumeOfTheBatteryIsCertifiedAsStored) {
 }
 
 TEST(Enclose, InflatesByAFewUnitsInTheLastPlaceOfTheSize) {
-  for (const BatterySet& set : battery::all()) {
+  for (const NamedPoints& set : float32_battery()) {
     for (const bool turned : {false, true}) {
       for (const Volume<double>& fit : fits(set.points, turned)) {
         const auto e = enclose(fit, set.points);
@@ -116,7 +116,7 @@ TEST(Enclose, InflatesByAFewUnitsInTheLastPlaceOfTheSize) {
 }
 
 TEST(Enclose, FlatSetsInFloat32KeepVolumesOfNoThickness) {
-  const Points grid = battery::grid(10, 7, {1, 0, 0}, {0, 1, 0});
+  const Points grid = copse::grid(10, 7, {1, 0, 0}, {0, 1, 0});
   for (const Volume<double>& fit : fits(grid, false)) {
     const Volume<float> v = enclose(fit, grid)->volume;
     if (const auto* box = std::get_if<OrientedBox<float>>(&v)) {
@@ -135,15 +135,15 @@ TEST(Enclose, FlatSetsInFloat32KeepVolumesOfNoThickness) {
 }
 
 TEST(Enclose, ACylinderOfNoLengthGetsTheThinnestHeightThatIsCertified) {
-  const Points circle = battery::circle(64);
-  const auto flat = enclose(Cylinder<double>{{0, 0, 0}, {0, 0, 0}, 1}, battery::line(2, {0, 1, 0}));
+  const Points circle = copse::circle(64);
+  const auto flat = enclose(Cylinder<double>{{0, 0, 0}, {0, 0, 0}, 1}, line(2, {0, 1, 0}));
   ASSERT_TRUE(flat);
   const auto thin = enclose(Cylinder<double>{{0, 0, 0}, {0, 0, 1e-9}, 1}, circle);
   const auto& c = std::get<Cylinder<float>>(thin->volume);
   EXPECT_NE(c.a, c.b);
   EXPECT_LE(std::abs(c.b.z - c.a.z), 1e-6f);
   EXPECT_LE(c.radius, 1.000001f);
-  const Points tilted = battery::turned(circle);
+  const Points tilted = turned(circle);
   const Double3 axis = cross(tilted[16], tilted[0]);
   const auto across = enclose(Cylinder<double>{{0, 0, 0}, axis * 1e-9, 1}, tilted);
   const auto& t = std::get<Cylinder<float>>(across->volume);
@@ -152,20 +152,20 @@ TEST(Enclose, ACylinderOfNoLengthGetsTheThinnestHeightThatIsCertified) {
 }
 
 TEST(Enclose, ABallTooSmallForItsPointsIsMadeLargeEnough) {
-  const Points cube = battery::cube();
+  const Points cube = cube_corners();
   const auto e = enclose(BoundingSphere<double>{{0.5, 0.5, 0.5}, 0.1}, cube);
   EXPECT_NEAR(std::get<BoundingSphere<float>>(e->volume).radius, std::sqrt(0.75), 1e-7);
 }
 
 TEST(Enclose, WhatFloat32CannotHoldIsToldInsteadOfBeingWrong) {
-  const Points huge = battery::scaled(battery::cube(), 1e200);
+  const Points huge = scaled(cube_corners(), 1e200);
   for (const Volume<double>& fit : fits(huge, false)) EXPECT_FALSE(enclose(fit, huge)) << fit.index();
-  const Points edge = battery::scaled(battery::cube(), 3.4e38);  // the ball's radius fits, barely
+  const Points edge = scaled(cube_corners(), 3.4e38);  // the ball's radius fits, barely
   EXPECT_TRUE(enclose(BoundingSphere<double>{{1.7e38, 1.7e38, 1.7e38}, 2.95e38}, edge));
 }
 
 TEST(Enclose, AMillionthOfAPointBeyondIsSeen) {
-  Points sphere = battery::sphere(1000);
+  Points sphere = even_sphere(1000);
   const auto before = enclose(BoundingSphere<double>{{0, 0, 0}, 1}, sphere);
   sphere.push_back({0, 0, 1.000001});
   const auto after = enclose(BoundingSphere<double>{{0, 0, 0}, 1}, sphere);

@@ -1,7 +1,7 @@
 #include "lib/analysis/volumes/fit_volumes.h"
 
 #include "lib/analysis/volumes/certify.h"
-#include "tests/volumes/batteries.h"
+#include "tests/volumes/point_sets.h"
 
 #include <algorithm>
 #include <numeric>
@@ -46,7 +46,7 @@ TEST(FitVolumes, EveryKindHasAMethodThatSearchesAndNamesAreUnique) {
 }
 
 TEST(FitVolumes, NoPointOfTheWholeBatteryIsOutsideAnyVolumeAsStored) {
-  for (const BatterySet& set : battery::all()) {
+  for (const NamedPoints& set : float32_battery()) {
     for (const FittedVolume& v : fit_all(set.points)) {
       EXPECT_TRUE(v.certified) << set.name << ": " << name_of(v.method.kind) << " " << v.method.name;
       EXPECT_TRUE(certify(v.volume, set.points).holds())
@@ -80,7 +80,7 @@ void expect_searches_least(const Points& points, const std::string& name) {
 }
 
 TEST(FitVolumes, TheSearchIsNeverWorseThanTheQuickMethodsAsStored) {
-  for (const BatterySet& set : battery::all()) {
+  for (const NamedPoints& set : float32_battery()) {
     expect_searches_least(set.points, set.name);
     Points far = set.points, flat = set.points;
     for (Double3& p : far) p += Double3{5e4, -3e4, 7e4};
@@ -93,7 +93,7 @@ TEST(FitVolumes, TheSearchIsNeverWorseThanTheQuickMethodsAsStored) {
 }
 
 TEST(FitVolumes, TheMinimalSpheresSupportIsOnItAndHoldsIt) {
-  for (const BatterySet& set : battery::all()) {
+  for (const NamedPoints& set : float32_battery()) {
     const auto all = fit_all(set.points);
     const FittedVolume& ball = of(all, VolumeKind::sphere, "minimal");
     ASSERT_GE(ball.support.size(), 1u) << set.name;
@@ -113,16 +113,16 @@ TEST(FitVolumes, TheMinimalSpheresSupportIsOnItAndHoldsIt) {
 }
 
 TEST(FitVolumes, KnownVolumesAreFound) {
-  const auto cube = fit_all(battery::cube());
+  const auto cube = fit_all(cube_corners());
   EXPECT_NEAR(of(cube, VolumeKind::sphere, "minimal").measures.volume, 2.720699046, 1e-6);
   EXPECT_NEAR(of(cube, VolumeKind::obb, "minimal").measures.volume, 1, 1e-6);
   EXPECT_LE(of(cube, VolumeKind::capsule, "minimal").measures.volume, 2.63945038 * 1.001);
   EXPECT_LE(of(cube, VolumeKind::lozenge, "minimal").measures.volume, 2.444035895 * 1.002);
-  const auto torus = fit_all(battery::torus(40, 32, 0.5, 0.125));
+  const auto torus = fit_all(copse::torus(40, 32, 0.5, 0.125));
   EXPECT_NEAR(of(torus, VolumeKind::sphere, "minimal").measures.volume, 1.022653859, 1e-6);
   EXPECT_LE(of(torus, VolumeKind::obb, "minimal").measures.volume, 0.388220379 * 1.0001);
   EXPECT_LE(of(torus, VolumeKind::lozenge, "minimal").measures.volume, 0.35435676 * 1.002);
-  const auto line = fit_all(battery::line(50, {0.1, 0.2, 0.3}));
+  const auto line = fit_all(copse::line(50, {0.1, 0.2, 0.3}));
   EXPECT_NEAR(of(line, VolumeKind::sphere, "minimal").measures.volume, 3226.851027, 1e-2);
 }
 
@@ -141,9 +141,8 @@ std::string label(const FittedVolume& v) {
 
 TEST(FitVolumes, NotOneByteOfAnyMethodDependsOnTheOrderOrRepetitionOfThePoints) {
   for (const Points& points :
-       {battery::turned(battery::twig(10)), battery::cloud(300, {1, 0.5, 2}, 9), battery::lattice(9, 3),
-        battery::torus(20, 12, 0.5, 0.2), battery::turned(battery::grid(10, 7, {1, 0, 0}, {0, 1, 0})),
-        battery::cloud(9000, {1, 1, 1}, 10)}) {
+       {turned(twig(10)), random_cloud(9, 300, {1, 0.5, 2}), lattice(9, 3), copse::torus(20, 12, 0.5, 0.2),
+        turned(grid(10, 7, {1, 0, 0}, {0, 1, 0})), random_cloud(10, 9000, {1, 1, 1})}) {
     Triangles triangles = triangles_over(points);
     const auto before = fit_all(points, {}, triangles);
     Random random(1);
@@ -167,11 +166,11 @@ TEST(FitVolumes, NotOneByteOfAnyMethodDependsOnTheOrderOrRepetitionOfThePoints) 
 
 // Powers of two change no digit of a coordinate, so that they may change none of the fit either.
 TEST(FitVolumes, ScaleByAPowerOfTwoChangesNothingButTheExponentsOfAnyMethod) {
-  const Points points = battery::turned(battery::cloud(200, {1, 2, 4}, 3));
+  const Points points = turned(random_cloud(3, 200, {1, 2, 4}));
   const Triangles triangles = triangles_over(points);
   const auto base = fit_all(points, {}, triangles);
   for (const double scale : {0x1p-100, 0x1p100}) {  // 1e-30 and 1e30
-    const auto scaled = fit_all(battery::scaled(points, scale), {}, triangles);
+    const auto scaled = fit_all(copse::scaled(points, scale), {}, triangles);
     ASSERT_EQ(scaled.size(), base.size());
     for (std::size_t i = 0; i < base.size(); ++i) {
       const std::vector<float> a = numbers_of(base[i].volume), b = numbers_of(scaled[i].volume);
@@ -187,10 +186,10 @@ TEST(FitVolumes, ScaleByAPowerOfTwoChangesNothingButTheExponentsOfAnyMethod) {
 }
 
 TEST(FitVolumes, OtherScalesChangeNothingButRoundingOfAnyMethod) {
-  const Points points = battery::turned(battery::cloud(200, {1, 2, 4}, 3));
+  const Points points = turned(random_cloud(3, 200, {1, 2, 4}));
   const auto base = fit_all(points);
   for (const double scale : {1e-30, 3.7e-7, 1e30}) {
-    const auto scaled = fit_all(battery::scaled(points, scale));
+    const auto scaled = fit_all(copse::scaled(points, scale));
     for (std::size_t i = 0; i < base.size(); ++i) {
       const double volume = scaled[i].measures.volume / scale / scale / scale;
       EXPECT_NEAR(volume / base[i].measures.volume, 1, 1e-5) << label(base[i]) << " " << scale;
@@ -200,12 +199,12 @@ TEST(FitVolumes, OtherScalesChangeNothingButRoundingOfAnyMethod) {
 
 // What float32 can say there: at 1e7 its unit is 1, so that a cloud of a thousand keeps three digits.
 TEST(FitVolumes, APlaceFarAwayChangesNothingButRoundingOfAnyMethod) {
-  const Points points = battery::turned(battery::cloud(200, {1, 2, 4}, 3));
+  const Points points = turned(random_cloud(3, 200, {1, 2, 4}));
   const auto base = fit_all(points);
   for (const double size : {1.0, 1e6}) {
     for (const double place : {1e4, 1e7}) {
       if (size < place * 1e-4) continue;
-      const auto moved = fit_all(battery::scaled(points, size, {place, -place, place}));
+      const auto moved = fit_all(scaled(points, size, {place, -place, place}));
       for (std::size_t i = 0; i < base.size(); ++i) {
         EXPECT_NEAR(moved[i].measures.volume / size / size / size / base[i].measures.volume, 1, 1e-2)
             << label(base[i]) << " of size " << size << " at " << place;
@@ -218,7 +217,7 @@ TEST(FitVolumes, APlaceFarAwayChangesNothingButRoundingOfAnyMethod) {
 TEST(FitVolumes, FarFromTheOriginNoLozengeIsLargerThanTheCapsuleNorThatThanTheBall) {
   for (const double far : {1e5, 1e6, 1e7}) {
     for (int seed = 0; seed < 6; ++seed) {
-      Points points = battery::cloud(6 + 4 * seed, {1, 1, 1}, 40 + seed);
+      Points points = random_cloud(40 + seed, 6 + 4 * seed, {1, 1, 1});
       for (Double3& p : points) p += Double3{far, far, far};
       const auto all = fit_all(points);
       const double ball = of(all, VolumeKind::sphere, "minimal").measures.volume,
@@ -231,8 +230,8 @@ TEST(FitVolumes, FarFromTheOriginNoLozengeIsLargerThanTheCapsuleNorThatThanTheBa
 }
 
 TEST(FitVolumes, WhenTheTimeIsUpEveryMethodStillGivesAProvenVolumeNoWorseThanTheQuickOnes) {
-  for (const Points& points : {battery::turned(battery::twig(10)), battery::torus(40, 32, 0.5, 0.125),
-                               battery::cloud(9000, {1, 1, 1}, 10), battery::lattice(9, 3)}) {
+  for (const Points& points : {turned(twig(10)), copse::torus(40, 32, 0.5, 0.125),
+                               random_cloud(10, 9000, {1, 1, 1}), lattice(9, 3)}) {
     const auto late = fit_all(points, {FitQuality::exact, Deadline::after(0)});
     for (const FittedVolume& v : late) {
       EXPECT_TRUE(v.certified && certify(v.volume, points).holds()) << label(v);
@@ -248,7 +247,7 @@ TEST(FitVolumes, WhenTheTimeIsUpEveryMethodStillGivesAProvenVolumeNoWorseThanThe
 }
 
 TEST(FitVolumes, TimeEnoughGivesWhatNoLimitGivesAndAProof) {
-  const Points points = battery::turned(battery::cloud(60, {1, 2, 4}, 3));
+  const Points points = turned(random_cloud(3, 60, {1, 2, 4}));
   const auto all = fit_all(points), timed = fit_all(points, {FitQuality::balanced, Deadline::after(60)});
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_LE(timed[i].measures.volume, all[i].measures.volume * (1 + 1e-6)) << label(all[i]);
@@ -260,7 +259,7 @@ TEST(FitVolumes, TimeEnoughGivesWhatNoLimitGivesAndAProof) {
 }
 
 TEST(FitVolumes, MoreTimeGivesNoWorseVolumes) {
-  const Points points = battery::torus(40, 32, 0.5, 0.125);
+  const Points points = copse::torus(40, 32, 0.5, 0.125);
   std::vector<FittedVolume> before;
   for (const double seconds : {0.0, 1e-3, 1e-2, 60.0}) {
     std::vector<FittedVolume> now;
@@ -278,7 +277,7 @@ TEST(FitVolumes, MoreTimeGivesNoWorseVolumes) {
 }
 
 TEST(FitVolumes, LowerBoundsAreSharedWithinAKind) {
-  const Points points = battery::cube();
+  const Points points = cube_corners();
   const auto fitter = VolumeFitter::make(points);
   std::vector<FittedVolume> all;
   for (const FitMethod& m : fit_methods()) all.push_back(*fitter->fit(m));
@@ -294,7 +293,7 @@ TEST(FitVolumes, LowerBoundsAreSharedWithinAKind) {
 }
 
 TEST(FitVolumes, NoHullIsBuiltForMethodsThatNeedNoneAndNoByteTellsWhetherThereIsOne) {
-  const Points points = battery::turned(battery::cloud(300, {1, 0.5, 2}, 9));
+  const Points points = turned(random_cloud(9, 300, {1, 0.5, 2}));
   const auto without = VolumeFitter::make(points), with = VolumeFitter::make(points);
   with->hull();
   std::set<VolumeKind> kinds;
@@ -318,7 +317,7 @@ TEST(FitVolumes, WhatIsNotFiniteOrNothingIsRefused) {
 }
 
 TEST(FitVolumes, CoordinatesBeyondFloat32GiveNoVolume) {
-  const Points huge = battery::scaled(battery::cube(), 1e200);
+  const Points huge = scaled(cube_corners(), 1e200);
   const auto fitter = VolumeFitter::make(huge);
   ASSERT_TRUE(fitter);
   for (const FitMethod& m : fit_methods()) EXPECT_FALSE(fitter->fit(m)) << m.name;

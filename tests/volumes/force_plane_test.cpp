@@ -55,7 +55,7 @@ TEST(ForcePlane, TwoForcesAcrossGiveTheThickness) {
 
 TEST(ForcePlane, NothingPressesNothingIsClaimed) {
   const ForcePlane plane =
-      force_plane(unit_cube(), std::vector<std::uint32_t>{0}, std::vector<Double3>{{0, 0, 0}});
+      force_plane(cube_corners(), std::vector<std::uint32_t>{0}, std::vector<Double3>{{0, 0, 0}});
   EXPECT_EQ(plane.gamma, 0);
   EXPECT_LE(range_over(plane, {k_world_axes, {-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}}).least, 0);
 }
@@ -85,7 +85,7 @@ TEST(ForcePlane, TheRangeIsBelowEverySampleOfTheCellAndNearTheLeast) {
 
 TEST(ForcePlane, SlackIsAFewRoundings) {
   Random random(3);
-  const ForcePlane plane = random_plane(random, unit_cube());
+  const ForcePlane plane = random_plane(random, cube_corners());
   EXPECT_GT(plane.slack, 0);
   EXPECT_LT(plane.slack, 1e-12 * plane.gamma);
 }

@@ -2,7 +2,7 @@
 
 #include "lib/analysis/volumes/exact_hull.h"
 #include "lib/analysis/volumes/point_cloud.h"
-#include "tests/volumes/awkward_sets.h"
+#include "tests/volumes/point_sets.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/formats/volume.h"
-#include "tests/volumes/awkward_sets.h"
+#include "tests/volumes/point_sets.h"
 
 #include <span>
 

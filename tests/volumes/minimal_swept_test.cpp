@@ -3,7 +3,6 @@
 #include "lib/analysis/volumes/lozenge.h"
 #include "lib/analysis/volumes/minimal_capsule.h"
 #include "lib/analysis/volumes/minimal_lozenge.h"
-#include "tests/volumes/batteries.h"
 #include "tests/volumes/hull_of.h"
 #include "tests/volumes/point_sets.h"
 #include "tests/volumes/reference_models.h"
@@ -60,7 +59,7 @@ TYPED_TEST(MinimalSwept, OfReferenceModelsIsTheBestKnownAndProvenTo2Percent) {
 TYPED_TEST(MinimalSwept, OfTheDegenerateBatteryEnclosesAndClaimsNoMoreThanItHas) {
   SweptBoundOptions proof;
   proof.gap = 0.1, proof.max_separations = 60;
-  for (const BatterySet& s : battery::all()) {
+  for (const NamedPoints& s : float32_battery()) {
     const auto cloud = make_point_cloud(s.points);
     ASSERT_TRUE(cloud) << s.name;
     const auto fit = TypeParam::fit(convex_hull(*cloud), proof);

@@ -1,7 +1,7 @@
 #include "lib/analysis/volumes/principal_axes.h"
 
 #include "lib/analysis/volumes/point_cloud.h"
-#include "tests/volumes/awkward_sets.h"
+#include "tests/volumes/point_sets.h"
 
 #include <gtest/gtest.h>
 

@@ -59,7 +59,7 @@ TEST(SweptBarrier, TheDescentsEndIsStationary) {
 }
 
 TEST(SweptBarrier, SeparationIsZeroWhereTheLengthsHoldThePoints) {
-  const Points p = unit_cube();
+  const Points p = cube_corners();
   Separation problem{{3, 3, 2}, {1, 1, 1}, k_world_axes, {0.01, 0.01, 0.01}};
   SeparationState state;
   state.s = 5;
@@ -69,7 +69,7 @@ TEST(SweptBarrier, SeparationIsZeroWhereTheLengthsHoldThePoints) {
 
 TEST(SweptBarrier, SeparationMeasuresWhatIsMissing) {
   // A ball about the unit cube needs a radius of sqrt(3) / 2; lengths (0, 0, 0.5) grown by r alone.
-  const Points p = unit_cube();
+  const Points p = cube_corners();
   Separation problem{{0, 0, 0.5}, {0, 0, 1}, k_world_axes, {0.01, 0.01, 0.01}};
   for (const Swept kind : {Swept::capsule, Swept::lozenge}) {
     SeparationState state;

@@ -46,8 +46,8 @@ TEST(SweptBound, ProvesKnownOptima) {
   const SweptBound bound = bound_swept(Swept::capsule, icosahedron(), {0.01, 30000}, best);
   EXPECT_LE(bound.lower_bound, ball);
   EXPECT_GE(bound.lower_bound, ball / 1.0101);
-  EXPECT_LE(gap(Swept::capsule, unit_cube(), 0.005), 0.005001);
-  EXPECT_LE(gap(Swept::lozenge, unit_cube(), 0.01), 0.010001);
+  EXPECT_LE(gap(Swept::capsule, cube_corners(), 0.005), 0.005001);
+  EXPECT_LE(gap(Swept::lozenge, cube_corners(), 0.01), 0.010001);
   EXPECT_LE(gap(Swept::lozenge, corner_tetrahedron(), 0.01), 0.010001);
 }
 

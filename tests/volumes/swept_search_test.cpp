@@ -23,7 +23,7 @@ TEST(SweptSearch, IsNeverWorseThanADescentFromAnyOfManyRandomFrames) {
 TEST(SweptSearch, FindsTheThinnestLineThroughACube) {
   // The projection of a cube along a body diagonal is the hexagon with circumradius sqrt(2/3); along an edge
   // it is a square with sqrt(1/2), the least.
-  EXPECT_NEAR(search_around(Swept::line, unit_cube()).rectangle.r, std::sqrt(0.5), 1e-7);
+  EXPECT_NEAR(search_around(Swept::line, cube_corners()).rectangle.r, std::sqrt(0.5), 1e-7);
 }
 
 TEST(SweptSearch, GivesTheSameBitsAgain) {

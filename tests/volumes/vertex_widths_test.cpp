@@ -1,6 +1,6 @@
 #include "lib/analysis/volumes/vertex_widths.h"
 
-#include "tests/volumes/awkward_sets.h"
+#include "tests/volumes/point_sets.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "lib/analysis/volumes/volume_measures.h"
 
 #include "lib/analysis/volumes/kdop.h"
-#include "tests/volumes/awkward_sets.h"
+#include "tests/volumes/point_sets.h"
 
 #include <numbers>
 

@@ -152,12 +152,18 @@ Tube least_around(std::span<const Double3> points, const Double3& direction, dou
   std::stable_sort(valleys.begin(), valleys.end(), [&](int a, int b) { return volume[a] < volume[b]; });
   for (std::size_t i = 0; i < valleys.size() && i < k_valleys; ++i) {
     double low = (valleys[i] - 1) * k_apart, high = (valleys[i] + 1) * k_apart;
+    double a = high - (high - low) * k_golden, b = low + (high - low) * k_golden;
+    Tube left = at(a), right = at(b);
     for (int k = 0; k < k_sections; ++k) {
-      const double a = high - (high - low) * k_golden, b = low + (high - low) * k_golden;
-      const Tube left = at(a), right = at(b);
       const bool to_left = left.volume() < right.volume();
-      (to_left ? high : low) = to_left ? b : a;
       if ((to_left ? left : right).volume() < best.volume()) best = to_left ? left : right;
+      if (to_left) {
+        high = b, b = a, right = left;
+        left = at(a = high - (high - low) * k_golden);
+      } else {
+        low = a, a = b, left = right;
+        right = at(b = low + (high - low) * k_golden);
+      }
     }
   }
   return best;
