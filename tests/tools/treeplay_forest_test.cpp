@@ -112,6 +112,21 @@ TEST_F(TreeplayOneTree, WhatIsAFewPixelsHighCostsAHandfulOfTriangles) {
   EXPECT_LE(triangles(400, "0"), ground + 16);
 }
 
+// A plane of free points, y = x / 2.
+TEST_F(TreeplayForest, HeightsCountFromAFreeSurfaceAsWell) {
+  write_text(file("page.json"), R"({"terrain": {"samples": [5, 6], "nurbs": {"degree": [1, 1],
+      "points": [[[0, 0, 0], [40, 20, 0]], [[8, 4, 40], [40, 20, 40]]]}},
+      "types": [{"name": "rich", "tree": "rich.stree", "count": 4, "scale": 0.5}]})");
+  ASSERT_EQ(run_process({"ecogen", file("page.json"), "-o", file("f.eco")}).status, 0);
+  ASSERT_EQ(play({"--unlit", "--camera", "20,12,36,30,17,10"}).status, 0);
+  const std::string picture = read_text(file("f.png"));
+  ASSERT_EQ(play({"--unlit", "--camera", "20,2,36,30,2,10", "--above-ground"}).status, 0);
+  EXPECT_EQ(read_text(file("f.png")), picture);
+  const Outcome o = play({"--unlit", "--camera", "1,2,39,30,2,10", "--above-ground"});
+  EXPECT_EQ(o.status, 2);
+  EXPECT_NE(o.err.find("has no terrain at (1, 39)"), std::string::npos) << o.err;
+}
+
 // A cell of a table of the report, in the row that begins with `row`.
 double reported(const std::string& report, const std::string& table, const std::string& row,
                 std::size_t cell) {

@@ -1,6 +1,7 @@
 #include "tools/treeplay/forest.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace copse::treeplay {
 
@@ -51,6 +52,36 @@ std::optional<double> ground_height(const Terrain& t, double x, double z) {
   const double a = t.vertex(c, r).y, b = t.vertex(c + 1, r).y, d = t.vertex(c, r + 1).y,
                e = t.vertex(c + 1, r + 1).y;
   return i >= k ? a * (1 - i) + b * (i - k) + e * k : a * (1 - k) + d * (k - i) + e * i;
+}
+
+namespace {
+
+// Where a vertical line meets a triangle, seen from above; none when it passes or the triangle stands
+// upright.
+std::optional<double> height_in(const Double3& a, const Double3& b, const Double3& c, double x, double z) {
+  const double area = (b.x - a.x) * (c.z - a.z) - (c.x - a.x) * (b.z - a.z);
+  if (area == 0 || !std::isfinite(area)) return std::nullopt;
+  const double v = ((x - a.x) * (c.z - a.z) - (c.x - a.x) * (z - a.z)) / area,
+               w = ((b.x - a.x) * (z - a.z) - (x - a.x) * (b.z - a.z)) / area;
+  // A line through an edge meets one of its two triangles, whatever rounding says.
+  constexpr double k_edge = -1e-12;
+  if (v < k_edge || w < k_edge || v + w > 1 - k_edge) return std::nullopt;
+  return a.y + v * (b.y - a.y) + w * (c.y - a.y);
+}
+
+}  // namespace
+
+std::optional<double> highest_ground(const Terrain& t, double x, double z) {
+  if (t.columns == 0 || t.regular()) return ground_height(t, x, z);
+  std::optional<double> highest;
+  for (std::uint32_t r = 0; r + 1 < t.rows; ++r)
+    for (std::uint32_t c = 0; c + 1 < t.columns; ++c) {
+      const Double3 a = t.vertex(c, r), b = t.vertex(c + 1, r), d = t.vertex(c, r + 1),
+                    e = t.vertex(c + 1, r + 1);
+      for (const auto& height : {height_in(a, d, e, x, z), height_in(a, e, b, x, z)})
+        if (height && (!highest || *height > *highest)) highest = height;
+    }
+  return highest;
 }
 
 ForestGround::ForestGround(const Terrain& terrain, const Double3& origin, TreeGeometry& geometry)

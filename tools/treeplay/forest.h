@@ -64,6 +64,10 @@ class ForestGround {
 // terrain is no regular grid of heights.
 std::optional<double> ground_height(const Terrain& terrain, double x, double z);
 
+// The same of any terrain: of a free surface the highest triangle over or under the place; none beside it.
+// O(triangles) where the terrain is no regular grid.
+std::optional<double> highest_ground(const Terrain& terrain, double x, double z);
+
 struct Forest {
   std::vector<ForestType> types;
   ForestGround ground;

@@ -237,10 +237,11 @@ void warn_of_wide_frames(const Scene& scene, const Plan& plan, Context& context)
 Result<void> raise_camera(const Scene& scene, const Options& options, Plan& plan) {
   if (!plan.above_ground) return {};
   for (Double3* point : {&plan.camera->eye, &plan.camera->target}) {
-    const auto ground = scene.eco ? ground_height(scene.eco->terrain, point->x, point->z) : std::nullopt;
+    const auto ground = scene.eco ? highest_ground(scene.eco->terrain, point->x, point->z) : std::nullopt;
     if (!ground)
-      return fail(Fault::usage, options.input.string(), "has no terrain of heights for --above-ground",
-                  "leave --above-ground out, and give heights from 0");
+      return fail(Fault::usage, options.input.string(),
+                  fmt::format("has no terrain at ({:g}, {:g}) for --above-ground", point->x, point->z),
+                  "leave --above-ground out, or let eye and target of --camera stand over the terrain");
     point->y += *ground;
   }
   return {};
