@@ -52,7 +52,7 @@ step maps "$forest/*.png"
 "$bin/treedump" "$forest/forest.eco" --verify -q
 "$bin/treedump" "$forest/forest.eco" >"$forest/forest.txt"
 step ecogen "$forest/forest.eco, verified; $forest/map.png, $forest/forest.html"
-"$bin/treeplay" "$forest/forest.eco" --headless --size 1280x720 --samples 4 --camera 124,38,138,62,6,52,46 --frames "$out/forest.png" -q
+"$bin/treeplay" "$forest/forest.eco" --headless --size 1280x720 --samples 4 --camera 116,6,104,60,4,66,55 --above-ground --sun 12,38 --frames "$out/forest.png" -q
 step treeplay "$out/forest.png"
 
 python3 samples/demo_page.py "$out" "$samples" >"$out/index.html"
