@@ -39,14 +39,33 @@ TEST(LeafCollapse, CountsAreWhatIsDrawnAtEveryStep) {
   }
 }
 
-TEST(LeafCollapse, KeepsTheSumOfAreasAtEveryStepWhileItFits) {
-  for (const bool alpha : {false, true}) {
-    const Spectrum s = collapse_spectrum(LeafyTree{.leaves = 100, .alpha = alpha}.make());
-    const double full = area(drawn_state(s, 0));
-    for (std::uint32_t n = 0; n <= s.steps(); ++n) {
-      if (s.counts[n] >= 8) {
-        EXPECT_NEAR(area(drawn_state(s, n)) / full, 1, 1e-5) << n;
+TEST(LeafCollapse, KeepsTheSumOfAreasOnceMergedLeavesAreShownWhileItFits) {
+  for (const CollapseQuality quality : {CollapseQuality::fast, CollapseQuality::balanced}) {
+    for (const bool alpha : {false, true}) {
+      const Spectrum s =
+          collapse_spectrum(LeafyTree{.leaves = 300, .alpha = alpha}.make(), {}, {.quality = quality});
+      const double full = area(drawn_state(s, 0));
+      for (std::uint32_t n = 0; n <= s.steps() && s.counts[n] >= 16; ++n) {
+        const double ratio = area(drawn_state(s, n)) / full;
+        EXPECT_LE(ratio, 1.05) << n << ": some leaves have grown before those that they grow for leave";
+        if (s.counts[n] <= 0.14 * 600) {
+          EXPECT_NEAR(ratio, 1, 1e-4) << n;
+        }
       }
+    }
+  }
+}
+
+// What leaves before that was hidden.
+TEST(LeafCollapse, HoldsCoverageWhereItLetsAreaGo) {
+  const Tree tree = LeafyTree{.leaves = 1500, .half = 0.25}.make();
+  for (const CollapseQuality quality : {CollapseQuality::fast, CollapseQuality::balanced}) {
+    const Spectrum s = collapse_spectrum(tree, {}, {.quality = quality});
+    const LodJudge judge(drawn_state(s, 0), {}, {.views = 42, .image_size = 64, .mask_size = 128});
+    for (const double ratio : {0.8, 0.5, 0.25}) {
+      const LodQuality q = judge.measure(drawn_state(s, step_with(s, std::size_t(ratio * 3000))));
+      EXPECT_NEAR(q.coverage_ratio, 1, quality == CollapseQuality::fast ? 0.03 : 0.02) << ratio;
+      EXPECT_LE(q.area_ratio, 1.001) << ratio;
     }
   }
 }
@@ -55,7 +74,7 @@ TEST(LeafCollapse, ErrorsAndCountsAreMonotone) {
   const Spectrum s = collapse_spectrum(LeafyTree{}.make());
   for (std::uint32_t n = 1; n <= s.steps(); ++n) {
     EXPECT_GE(s.errors[n], s.errors[n - 1]);
-    EXPECT_LT(s.counts[n], s.counts[n - 1]);
+    EXPECT_LE(s.counts[n], s.counts[n - 1]);
   }
 }
 
@@ -79,9 +98,9 @@ TEST(LeafCollapse, WhatNoOneSeesGoesFirstAndTheOutlineStays) {
     const Spectrum s = collapse_spectrum(tree, {}, {.quality = quality});
     const LodJudge judge(drawn_state(s, 0), {}, {.views = 42, .image_size = 64, .mask_size = 128});
     const LodQuality q = judge.measure(drawn_state(s, step_with(s, 1500)));
-    EXPECT_NEAR(q.area_ratio, 1, 1e-4);
-    EXPECT_GE(q.iou, quality == CollapseQuality::exact ? 0.99 : 0.985);
-    EXPECT_LE(q.hull_growth, quality == CollapseQuality::exact ? 0.02 : 0.03);
+    EXPECT_LT(q.area_ratio, 0.9);
+    EXPECT_GE(q.iou, 0.99);
+    EXPECT_LE(q.hull_growth, 0.001) << "nothing has grown";
   }
 }
 

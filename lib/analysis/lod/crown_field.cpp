@@ -219,34 +219,40 @@ void CrownField::measure_hull(std::span<const FoliageTriangle> triangles) {
   }
 }
 
+// How far the points reach along each direction beyond the foliage.
+void CrownField::reach_of(std::span<const Double3> points, Reach& reach) const {
+  reach.fill(-std::numeric_limits<double>::infinity());
+  for (const Double3& p : points) {
+    const Double3 q = p - low_;
+    for (std::size_t d = 0; d < k_directions; ++d) {
+      const double along = q.x * axes_[0][d] + q.y * axes_[1][d] + q.z * axes_[2][d] - support_[d];
+      reach[d] = along > reach[d] ? along : reach[d];
+    }
+  }
+}
+
 Double3 CrownField::way_back(std::span<const Double3> points, double margin) const {
   Double3 moved{};
   if (!(width_ >= 0)) return moved;  // no foliage, no hull
+  Reach reach;
+  reach_of(points, reach);
   for (int round = 0; round < k_rounds; ++round) {
-    double worst = 0;
-    std::size_t direction = 0;
-    for (std::size_t d = 0; d < directions_.size(); ++d) {
-      double reach = -std::numeric_limits<double>::infinity();
-      for (const Double3& p : points) reach = std::max(reach, dot(p + moved - low_, directions_[d]));
-      if (reach - support_[d] - margin > worst) worst = reach - support_[d] - margin, direction = d;
-    }
+    const auto most = std::max_element(reach.begin(), reach.end());
+    const double worst = *most - margin;
     if (!(worst > 0)) break;
-    moved -= directions_[direction] * worst;
+    const Double3 back = directions_[most - reach.begin()] * worst;
+    moved -= back;
+    for (std::size_t d = 0; d < k_directions; ++d)
+      reach[d] -= back.x * axes_[0][d] + back.y * axes_[1][d] + back.z * axes_[2][d];
   }
   return moved;
 }
 
 double CrownField::excess(std::span<const Double3> points) const {
-  double worst = 0;
-  if (!(width_ >= 0)) return worst;
-  for (const Double3& p : points) {
-    const Double3 q = p - low_;
-    double most = 0;
-    for (std::size_t d = 0; d < support_.size(); ++d)
-      most = std::max(most, q.x * axes_[0][d] + q.y * axes_[1][d] + q.z * axes_[2][d] - support_[d]);
-    worst = std::max(worst, most);
-  }
-  return worst;
+  if (!(width_ >= 0)) return 0;
+  Reach reach;
+  reach_of(points, reach);
+  return std::max(0.0, *std::max_element(reach.begin(), reach.end()));
 }
 
 bool CrownField::surrounded(const Double3& p) const {

@@ -66,6 +66,9 @@ class CrownField {
   void measure_distances();
   void measure_cross_section();
   void find_outer_cells();
+  static constexpr std::size_t k_directions = 162;
+  using Reach = std::array<double, k_directions>;
+  void reach_of(std::span<const Double3> points, Reach& reach) const;
   void measure_hull(std::span<const FoliageTriangle> triangles);
 
   Double3 low_{};

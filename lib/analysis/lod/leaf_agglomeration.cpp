@@ -3,6 +3,7 @@
 #include "lib/analysis/lod/crown_field.h"
 #include "lib/analysis/lod/leaf_elements.h"
 #include "lib/analysis/lod/leaf_matching.h"
+#include "lib/analysis/lod/leaf_occlusion.h"
 #include "lib/analysis/lod/leaf_shape.h"
 #include "lib/analysis/lod/radius_ancestors.h"
 
@@ -22,6 +23,9 @@ constexpr float k_stranger = 4;   // squared: how much farther leaves of another
 constexpr double k_largest = 0.36;  // of the crown's cross-section: a leaf that fits inside
 constexpr double k_margin = 0.012;  // of the crown's width, out of its hull
 constexpr double k_hidden = 0.02;   // of a leaf: if it covers no more alone, it may be anywhere
+constexpr int k_views = 6;          // from which it is seen what hides behind what,
+constexpr double k_samples = 12;    // in so many points of a leaf,
+constexpr float k_doubt = 3;        // of which the field's word is worth so many
 constexpr float k_kept = 0.35f;     // of a leaf's ground, what even a host at its place does not cover
 
 // An alive leaf, as the search for hosts sees it.
@@ -44,8 +48,13 @@ struct Offer {
 
 class Agglomeration {
  public:
-  Agglomeration(const Tree& tree, const LeafPieces& pieces)
-      : pieces_(pieces), field_(field_of(pieces)), ancestors_(tree), elements_(pieces) {
+  Agglomeration(const Tree& tree, const Looks& looks, const LeafPieces& pieces, std::size_t full)
+      : pieces_(pieces),
+        looks_(looks),
+        full_(double(std::max<std::size_t>(1, full))),
+        field_(field_of(pieces)),
+        ancestors_(tree),
+        elements_(pieces) {
     largest_ = k_largest * field_.cross_section();
     const double width = field_.width();
     per_width_ = width > 0 ? static_cast<float>(1 / (width * width)) : 0;
@@ -53,7 +62,11 @@ class Agglomeration {
 
   Spectrum run() {
     gather();
-    while (alive_.size() > 1) round();
+    leave_hidden();
+    while (alive_.size() > 1) {
+      round();
+      if (elements_.held() && (triangles_ <= shown_ || alive_.size() == 1)) elements_.show(curtain_);
+    }
     return elements_.finish();
   }
 
@@ -96,7 +109,50 @@ class Agglomeration {
       nodes_[n].radius = piece.radius, nodes_[n].area = area;
       place(leaves[n], centres[n], area, field_.at(centres[n]).openness, field_.exposure(centres[n]));
     }
-    for (const std::uint32_t n : curve_order(centres)) alive_.push_back(leaves[n]);
+    curtain_ = curve_order(centres);
+    for (const std::uint32_t n : curtain_) alive_.push_back(leaves[n]);
+    triangles_ = double(pieces_.triangles.size());
+  }
+
+  // What no one misses leaves, and comes back, merged, when fewer leaves are needed than that would take.
+  void leave_hidden() {
+    const double least = Occlusion::k_least * full_;
+    if (alive_.size() < 2 || triangles_ <= least) return;
+    std::vector<DrawnLeaf::Face> faces;
+    DoubleBox box;
+    for (const std::uint32_t t : pieces_.triangles) faces.push_back(pieces_.part.triangles[t]);
+    for (const SpectrumVertex& v : pieces_.part.vertices) box.grow(to_double(v.position));
+    std::vector<ViewedLeaf> leaves;
+    float mean = 0;
+    for (const Leaf& l : alive_) mean += l.area / float(alive_.size());
+    std::vector<float> prior;
+    for (const Leaf& l : alive_) {
+      const auto source = elements_.source(l.node);
+      leaves.push_back({pieces_.part.vertices,
+                        std::span(faces).subspan(source.data() - pieces_.triangles.data(), source.size()),
+                        mask_of(pieces_.list[elements_.piece(l.node)].material)});
+      prior.push_back(mean > 0 ? k_doubt * (l.sole + k_other * l.seen) / mean : 0);
+    }
+    const Occlusion o = leaves_by_occlusion(leaves, box.centre(), 0.55 * length(box.extent()), box,
+                                            {.views = k_views,
+                                             .samples = k_samples,
+                                             .other = k_other,
+                                             .coverage = Occlusion::k_coverage,
+                                             .least = 1 + std::size_t(least),
+                                             .prior = prior});
+    if (o.gone.empty()) return;
+    shown_ = triangles_;
+    for (const Occlusion::Gone& g : o.gone) {
+      const Leaf& leaf = alive_[g.leaf];
+      elements_.remove(leaf.node, g.alone < k_hidden ? 0 : 0.5 * std::sqrt(double(leaf.area)));
+      shown_ -= double(elements_.source(leaf.node).size());
+    }
+    shown_ *= Occlusion::k_shown;
+    elements_.hold();
+  }
+
+  const AlphaMask* mask_of(std::uint32_t m) const {
+    return m < looks_.masks.size() && !looks_.masks[m].opaque.empty() ? &looks_.masks[m] : nullptr;
   }
 
   static void place(Leaf& leaf, const Double3& centre, double area, double open, double seen) {
@@ -167,6 +223,10 @@ class Agglomeration {
     const std::uint32_t nodes[] = {host.node, guest.node};
     const LeafPiece& piece = pieces_.list[elements_.piece(host.node)];
     elements_.merge(nodes, leaf, piece.material, h.radius, h.displacement);
+    const auto faces_of = [&](const Node& node, std::uint32_t n) {
+      return node.drawn == k_none ? elements_.source(n).size() : made_[node.drawn].faces;
+    };
+    triangles_ -= double(faces_of(h, host.node) + faces_of(g, guest.node) - leaf.faces);
     if (h.drawn == k_none) h.drawn = static_cast<std::uint32_t>(made_.size()), made_.emplace_back();
     made_[h.drawn] = leaf, h.area = leaf.area();
     see(host, leaf, h.area, distance(before, centre));
@@ -268,6 +328,10 @@ class Agglomeration {
   }
 
   const LeafPieces& pieces_;
+  Looks looks_;
+  double full_, triangles_ = 0;         // at full detail, now
+  double shown_ = 0;                    // triangles at which merged leaves replace those that only lost some
+  std::vector<std::uint32_t> curtain_;  // the nodes in the order in which they do
   CrownField field_;
   RadiusAncestors ancestors_;
   LeafElements elements_;
@@ -282,8 +346,9 @@ class Agglomeration {
 
 }  // namespace
 
-Spectrum agglomerate_leaves(const Tree& tree, const LeafPieces& pieces) {
-  return Agglomeration(tree, pieces).run();
+Spectrum agglomerate_leaves(const Tree& tree, const Looks& looks, const LeafPieces& pieces,
+                            std::size_t full) {
+  return Agglomeration(tree, looks, pieces, full).run();
 }
 
 }  // namespace copse

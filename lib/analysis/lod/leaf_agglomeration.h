@@ -8,14 +8,16 @@
 #pragma once
 
 #include "lib/analysis/lod/leaf_pieces.h"
+#include "lib/analysis/measure/alpha_raster.h"
 #include "lib/formats/spectrum.h"
 #include "lib/formats/tree.h"
 
 namespace copse {
 
 // The spectrum of the leaves in `pieces`, which are `tree`'s; what collapse_spectrum says of its elements and
-// steps holds here too. Areas add up as exactly; coverage is held by the field's word alone, within about a
-// tenth. Deterministic; one thread. O(n log n), some hundred nanoseconds a triangle and merge.
-Spectrum agglomerate_leaves(const Tree& tree, const LeafPieces& pieces);
+// steps holds here too (`full`: triangles at full detail, of which `pieces` may be what is left). Areas add
+// up as exactly; coverage is held by the field's word alone, within about a tenth. Deterministic; one thread.
+// O(n log n), some hundred nanoseconds a triangle and merge.
+Spectrum agglomerate_leaves(const Tree& tree, const Looks& looks, const LeafPieces& pieces, std::size_t full);
 
 }  // namespace copse

@@ -4,6 +4,7 @@
 #include "lib/analysis/lod/leaf_agglomeration.h"
 #include "lib/analysis/lod/leaf_elements.h"
 #include "lib/analysis/lod/leaf_matching.h"
+#include "lib/analysis/lod/leaf_occlusion.h"
 #include "lib/analysis/lod/leaf_pieces.h"
 #include "lib/analysis/lod/leaf_shape.h"
 #include "lib/analysis/lod/leaf_surfaces.h"
@@ -26,6 +27,7 @@ constexpr double k_prior = 20;      // pixels that the field's word on a leaf is
 constexpr double k_good = 0.1;      // pixels of change in all views: no better successor is looked for
 constexpr double k_layers = 7;      // of leaves, behind which nothing is seen whichever way it lies
 constexpr double k_seen = 0.001;    // of its pixels, what a core may change in the picture when it grows
+constexpr double k_doubt = 8;       // pixels that the field's word counts before any picture is drawn
 constexpr double k_hidden = 0.02;   // of a leaf: if it covers no more alone, it may be anywhere
 constexpr double k_margin = 0.008;  // of the crown's width, out of its hull
 
@@ -102,7 +104,11 @@ class Collapse {
     std::vector<Double3> centres;
     for (const Node& n : nodes_) centres.push_back(n.drawn.centre());
     alive_ = curve_order(centres);
-    while (alive_.size() > 1) round();
+    leave_hidden();
+    while (alive_.size() > 1) {
+      round();
+      if (elements_.held() && (share() <= shown_ || alive_.size() == 1)) elements_.show(curtain_);
+    }
     return elements_.finish();
   }
 
@@ -134,6 +140,7 @@ class Collapse {
                 .patch = {},
                 .drawn = elements_.drawn(n)};
       for (const std::uint32_t t : source) node.patch += patch(t);
+      area_ += node.patch.area;
       nodes_.push_back(node);
     }
   }
@@ -175,6 +182,42 @@ class Collapse {
     std::vector<ViewedLeaf> out;
     for (const std::uint32_t n : nodes) out.push_back(viewed(nodes_[n]));
     return out;
+  }
+
+  // Of the triangles of full detail those that are drawn.
+  double share() const {
+    std::size_t triangles = 0;
+    for (const std::uint32_t n : alive_) triangles += nodes_[n].drawn.triangles().size();
+    return double(triangles) / double(std::max<std::size_t>(1, full_.triangles.size()));
+  }
+
+  // What no one misses leaves, and comes back, merged, when fewer leaves are needed than that would take.
+  void leave_hidden() {
+    if (alive_.size() < 2 || share() <= Occlusion::k_least) return;
+    std::vector<float> prior;
+    for (const std::uint32_t n : alive_) {
+      const Patch& p = nodes_[n].patch;
+      prior.push_back(
+          area_ > 0 ? float(k_doubt * (p.open + options_.other * p.visible) * double(alive_.size()) / area_)
+                    : 0.0f);
+    }
+    const Occlusion o =
+        leaves_by_occlusion(viewed(alive_), offset_, 0.55 * length(box_.extent()), box_,
+                            {.samples = 12 * effort_.leaf_pixels,
+                             .other = options_.other,
+                             .coverage = Occlusion::k_coverage,
+                             .least = 1 + std::size_t(Occlusion::k_least * double(full_.triangles.size())),
+                             .prior = prior});
+    if (o.gone.empty()) return;
+    double triangles = 0;
+    for (const Occlusion::Gone& g : o.gone) {
+      const Node& node = nodes_[alive_[g.leaf]];
+      elements_.remove(alive_[g.leaf], g.alone < k_hidden ? 0 : 0.5 * std::sqrt(node.drawn.area()));
+      triangles += double(node.drawn.triangles().size());
+    }
+    shown_ = (share() - triangles / double(full_.triangles.size())) * Occlusion::k_shown;
+    curtain_ = alive_;
+    elements_.hold();
   }
 
   // Pictures as fine as the leaves that are left, so that a round costs what they are many.
@@ -540,6 +583,9 @@ class Collapse {
   std::vector<Face> source_faces_;  // piece after piece
   std::vector<ViewedLeaf> source_;
   std::optional<LeafViews> views_;
+  double area_ = 0;   // m², of all leaves
+  double shown_ = 0;  // share of the triangles at which merged leaves replace those that only lost some
+  std::vector<std::uint32_t> curtain_;  // the nodes in the order in which they do
   double asked_ = 0, mean_area_ = 0, hidden_share_ = -1;
   std::uint64_t turns_ = 0;
   std::vector<Node> nodes_;
@@ -554,8 +600,9 @@ class Collapse {
 Spectrum collapse_spectrum(const Tree& tree, const Looks& looks, const LeafCollapseOptions& options) {
   const LeafPieces pieces = leaf_pieces(tree);
   const auto collapse = [&](const LeafPieces& some) {
-    return options.quality == CollapseQuality::fast ? agglomerate_leaves(tree, some)
-                                                    : Collapse(tree, looks, some, pieces, options).run();
+    return options.quality == CollapseQuality::fast
+               ? agglomerate_leaves(tree, looks, some, pieces.triangles.size())
+               : Collapse(tree, looks, some, pieces, options).run();
   };
   const std::optional<SurfaceCollapse> lumps = collapse_surfaces(pieces);
   return lumps ? joined(lumps->spectrum, collapse(lumps->left)) : collapse(pieces);

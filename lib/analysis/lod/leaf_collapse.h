@@ -34,7 +34,9 @@ struct LeafCollapseOptions {
 // leaves that it stands for (or a triangle, where the leaves are triangles). Where most of the area is of
 // surfaces of many triangles these lose edges first (leaf_surfaces.h). `looks`: the masks of the
 // materials' textures; without them leaves with alpha are taken as opaque. What stands for leaves of several
-// twigs hangs on the lowest radius that bears them all. The sum of areas stays the same as long as it fits
+// twigs hangs on the lowest radius that bears them all. While many leaves are hidden they
+// only leave, nothing grows, and the sum of areas falls with them, coverage does not (leaf_occlusion.h);
+// below 0.19 of the triangles the areas add up to what they were, as long as that fits
 // (`largest`). A step's error, metres: how far ground that
 // only one leaf covers is from what stands for that leaf, as estimated, the largest so far. Steps come in the
 // order of what they change in the picture, as far as can be. Deterministic. O(n log n): each round draws

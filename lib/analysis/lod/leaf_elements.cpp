@@ -1,8 +1,14 @@
 #include "lib/analysis/lod/leaf_elements.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace copse {
+namespace {
+
+constexpr std::uint32_t k_gone = k_none - 1;
+
+}  // namespace
 
 DrawnLeaf leaf_of_shape(const LeafPieces& pieces, std::uint32_t piece, std::uint32_t triangle,
                         const std::array<Double3, 4>& corners, const Double3& normal) {
@@ -31,6 +37,7 @@ LeafElements::LeafElements(const LeafPieces& pieces)
   }
   first_.push_back(size());
   element_.assign(piece_.size(), k_none), gone_.assign(piece_.size(), 0);
+  pending_of_.assign(piece_.size(), k_none), removed_.assign(piece_.size(), 0);
 }
 
 std::span<const std::uint32_t> LeafElements::source(std::uint32_t node) const {
@@ -66,13 +73,48 @@ DrawnLeaf LeafElements::drawn(std::uint32_t node) {
 
 void LeafElements::merge(std::span<const std::uint32_t> nodes, const DrawnLeaf& leaf, std::uint32_t material,
                          std::uint32_t radius, double error) {
+  if (held_) {
+    error_ = std::max(error_, error);
+    for (const std::uint32_t n : nodes) pending_of_[n] = k_gone;
+    pending_of_[nodes.front()] = static_cast<std::uint32_t>(pending_.size());
+    pending_.push_back({leaf, material, radius});
+    return;
+  }
   builder_.step(error);
   for (const std::uint32_t n : nodes) gone_[n] = 1;
-  for (const std::uint32_t n : nodes) {
-    dissolve(n);
-    if (element_[n] != k_none) builder_.remove(element_[n]);
-  }
+  for (const std::uint32_t n : nodes) vanish(n);
   element_[nodes.front()] = put(leaf, material, radius);
+}
+
+void LeafElements::remove(std::uint32_t node, double error) {
+  builder_.step(error);
+  gone_[node] = removed_[node] = 1;
+  vanish(node);
+}
+
+void LeafElements::show(std::span<const std::uint32_t> order) {
+  held_ = false;
+  builder_.step(error_);
+  for (const std::uint32_t n : order) {
+    const std::uint32_t p = pending_of_[n];
+    if (p == k_none && removed_[n] == 0) continue;  // it is drawn as it was
+    if (p == k_gone && removed_[n] != 0) continue;
+    gone_[n] = 1;
+    if (p == k_gone) builder_.step(error_);  // the others are part of the step before: triangles only go
+    if (removed_[n] == 0) vanish(n);
+    if (p == k_gone) continue;
+    const LeafPiece& piece = pieces_.list[piece_[n]];
+    const Pending now = p == k_none ? Pending{drawn(n), piece.material, piece.radius} : pending_[p];
+    element_[n] = put(now.leaf, now.material, now.radius);
+  }
+  pending_.clear();
+}
+
+// What is drawn of the node is drawn no longer.
+void LeafElements::vanish(std::uint32_t node) {
+  dissolve(node);
+  if (element_[node] != k_none) builder_.remove(element_[node]);
+  element_[node] = k_none;
 }
 
 // A piece of the source goes as a whole: those of its triangles that stay get elements of their own.

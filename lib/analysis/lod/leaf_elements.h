@@ -75,10 +75,24 @@ class LeafElements {
   // the state before. Cost: the nodes, and once the triangles of each piece.
   void merge(std::span<const std::uint32_t> nodes, const DrawnLeaf& leaf, std::uint32_t material,
              std::uint32_t radius, double error);
+  // One step: the node goes and nothing takes its place.
+  void remove(std::uint32_t node, double error);
+  // From now on the nodes that were removed are back and merges go on, but nothing of it is drawn until
+  // show().
+  void hold() { held_ = true; }
+  bool held() const { return held_; }
+  // In small steps, each node in its turn, what is drawn becomes what has been merged since hold(). `order`:
+  // all nodes.
+  void show(std::span<const std::uint32_t> order);
   // What the builder says of the steps so far. Leaves nothing here.
   Spectrum finish() { return builder_.finish(); }
 
  private:
+  struct Pending {
+    DrawnLeaf leaf;
+    std::uint32_t material = k_none, radius = k_none;
+  };
+  void vanish(std::uint32_t node);
   void dissolve(std::uint32_t node);
   std::uint32_t put(const DrawnLeaf& leaf, std::uint32_t material, std::uint32_t radius);
 
@@ -92,6 +106,11 @@ class LeafElements {
   std::vector<std::uint32_t> number_, used_;       // while a leaf is drawn
   std::vector<std::array<std::uint32_t, 3>> put_;  // while one is put
   std::deque<Frond> fronds_;
+  bool held_ = false;
+  double error_ = 0;                       // of what is held
+  std::vector<Pending> pending_;           // leaves that are merged and not yet drawn
+  std::vector<std::uint32_t> pending_of_;  // of each node: one of them, k_gone or k_none
+  std::vector<std::uint8_t> removed_;      // of each node: by remove()
 };
 
 }  // namespace copse

@@ -13,7 +13,7 @@
 namespace copse {
 namespace {
 
-constexpr int k_narrowest = 16, k_widest = 512;
+constexpr int k_narrowest = 16, k_widest = 512;  // pixels of a picture
 constexpr int k_block = 4;                // pixels: coverage is balanced over three by three such blocks
 constexpr double k_whole = 40;            // the same for the coverage of the whole crown
 constexpr double k_most_whole = 1.5;      // ... at most
@@ -69,19 +69,32 @@ LeafEye cropped(const OrthographicView& view, const DoubleBox& box) {
 
 }  // namespace
 
+namespace {
+
+int picture_size(double radius, double pixel, int widest) {
+  const double wanted = pixel > 0 && radius > 0 ? 2 * radius / pixel : k_narrowest;
+  return static_cast<int>(std::clamp<double>(std::ceil(wanted), k_narrowest, widest));
+}
+
+}  // namespace
+
+std::vector<LeafEye> eyes_round(const Double3& centre, double radius, double pixel, std::uint64_t turn,
+                                int views, const DoubleBox& box, int widest) {
+  std::vector<LeafEye> eyes;
+  for (const Double3& d : half_sphere(turn, views))
+    eyes.push_back(cropped(view_of_sphere(centre, radius, d, picture_size(radius, pixel, widest)), box));
+  return eyes;
+}
+
 LeafViews::LeafViews(const Double3& centre, double radius, double pixel, std::uint64_t turn, int views,
                      const DoubleBox& box)
-    : centre_(centre) {
-  const double wanted = pixel > 0 && radius > 0 ? 2 * radius / pixel : k_narrowest;
-  const int size = static_cast<int>(std::clamp<double>(std::ceil(wanted), k_narrowest, k_widest));
+    : eyes_(eyes_round(centre, radius, pixel, turn, std::clamp(views, 1, k_most_views), box, k_widest)),
+      centre_(centre),
+      pixel_(view_of_sphere(centre, radius, {0, 0, 1}, picture_size(radius, pixel, k_widest)).pixel) {
   first_.push_back(0);
-  for (const Double3& d : half_sphere(turn, std::clamp(views, 1, k_most_views))) {
-    const OrthographicView view = view_of_sphere(centre, radius, d, size);
-    eyes_.push_back(cropped(view, box));
-    first_.push_back(first_.back() + static_cast<std::size_t>(eyes_.back().width) *
-                                         static_cast<std::size_t>(eyes_.back().height));
-    pixel_ = view.pixel;
-  }
+  for (const LeafEye& eye : eyes_)
+    first_.push_back(first_.back() +
+                     static_cast<std::size_t>(eye.width) * static_cast<std::size_t>(eye.height));
   per_step_ = radius > 0 ? static_cast<float>(0x1p29 / radius) : 0;
 }
 

@@ -23,6 +23,12 @@ struct ViewedLeaf {
   const AlphaMask* mask = nullptr;                          // null: opaque
 };
 
+// `views` sides of the ball, or what of it is in the box unless that is empty, evenly over one half of the
+// sphere; `turn` picks one of many orientations of the set. `pixel`: side of a pixel; the pictures are kept
+// between 16 and `widest` pixels wide, whatever it says.
+std::vector<LeafEye> eyes_round(const Double3& centre, double radius, double pixel, std::uint64_t turn,
+                                int views, const DoubleBox& box, int widest);
+
 class LeafViews {
  public:
   static constexpr int k_most_views = 12;
