@@ -102,8 +102,7 @@ std::uint64_t triangles_at(const Spectrum& s, std::uint32_t steps) {
 std::string check_level(const LodSpectra& s, const LodLevel& l, const LodLevel* before) {
   if (l.trunk_steps > s.trunk.steps() || l.leaf_steps > s.leaves.steps())
     return "takes more steps than there are";
-  const bool both = !s.trunk.elements.empty() && !s.leaves.elements.empty();
-  if (both && triangles_at(s.trunk, l.trunk_steps) + triangles_at(s.leaves, l.leaf_steps) != l.triangles)
+  if (triangles_at(s.trunk, l.trunk_steps) + triangles_at(s.leaves, l.leaf_steps) != l.triangles)
     return "has another number of triangles than its steps give";
   if (!(l.error >= 0) || !std::isfinite(l.error) || !(l.distance >= 0) || !std::isfinite(l.distance))
     return "has an error or a distance that is no number";

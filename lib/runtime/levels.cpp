@@ -116,6 +116,10 @@ std::uint32_t triangles_after(const Spectrum& s, std::uint32_t steps) {
   return s.counts.empty() ? 0 : s.counts[steps];
 }
 
+float error_after(const Spectrum& s, std::uint32_t steps) {
+  return s.errors.empty() ? 0 : s.errors[steps];
+}
+
 // Between two knots, both parts in proportion; `w` 0 is the finer one.
 LodLevel between(const LodSpectra& spectra, const LodLevel& fine, const LodLevel& coarse, double w) {
   const auto mix = [&](std::uint32_t a, std::uint32_t b) {
@@ -124,25 +128,39 @@ LodLevel between(const LodSpectra& spectra, const LodLevel& fine, const LodLevel
   LodLevel level = fine;
   level.trunk_steps = mix(fine.trunk_steps, coarse.trunk_steps);
   level.leaf_steps = mix(fine.leaf_steps, coarse.leaf_steps);
-  const bool measured = !spectra.trunk.elements.empty() && !spectra.leaves.elements.empty();
-  level.triangles = measured ? triangles_after(spectra.trunk, level.trunk_steps) +
-                                   triangles_after(spectra.leaves, level.leaf_steps)
-                             : mix(fine.triangles, fine.triangles) -
-                                   static_cast<std::uint32_t>(w * (fine.triangles - coarse.triangles));
-  // What lies between errs at most as much as the coarser one.
-  if (w > 0) level.error = coarse.error;
+  level.triangles =
+      triangles_after(spectra.trunk, level.trunk_steps) + triangles_after(spectra.leaves, level.leaf_steps);
+  const float error =
+      std::max(error_after(spectra.trunk, level.trunk_steps), error_after(spectra.leaves, level.leaf_steps));
+  level.error = std::max(fine.error, std::min(coarse.error, error));
   return level;
+}
+
+// How far from the finer to the coarser knot one must go until `holds`, which then stays so.
+template <class Holds>
+double first_weight(const LodSpectra& spectra, const LodLevel& fine, const LodLevel& coarse, Holds holds) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 32; ++i) {
+    const double middle = 0.5 * (low + high);
+    (holds(between(spectra, fine, coarse, middle)) ? high : low) = middle;
+  }
+  return high;
 }
 
 // The finest level between two knots that has at most so many triangles.
 LodLevel search(const LodSpectra& spectra, const LodLevel& fine, const LodLevel& coarse,
                 std::uint64_t triangles) {
-  double low = 0, high = 1;
-  for (int i = 0; i < 32; ++i) {
-    const double middle = 0.5 * (low + high);
-    (between(spectra, fine, coarse, middle).triangles <= triangles ? high : low) = middle;
-  }
-  return high >= 1 ? coarse : between(spectra, fine, coarse, high);
+  const double w = first_weight(spectra, fine, coarse,
+                                [&](const LodLevel& level) { return level.triangles <= triangles; });
+  return w >= 1 ? coarse : between(spectra, fine, coarse, w);
+}
+
+// The coarsest level between two knots that errs by no more.
+LodLevel search_error(const LodSpectra& spectra, const LodLevel& fine, const LodLevel& coarse, double error) {
+  const double beyond =
+      first_weight(spectra, fine, coarse, [&](const LodLevel& level) { return level.error > error; });
+  const double w = std::max(0.0, beyond - 0x1p-32);  // what the search has found to be within
+  return between(spectra, fine, coarse, w);
 }
 
 // The finest of the discrete levels with at most so many triangles, the coarsest when none has.
@@ -177,7 +195,9 @@ LodLevel level_of_error(const LodSpectra& spectra, double error) {
   const auto& knots = spectra.schedule.empty() ? spectra.discrete : spectra.schedule;
   const auto at =
       std::partition_point(knots.begin(), knots.end(), [&](const LodLevel& l) { return l.error <= error; });
-  return at == knots.begin() ? full_detail(spectra) : *std::prev(at);
+  if (at == knots.begin()) return full_detail(spectra);
+  if (at == knots.end() || spectra.schedule.empty()) return *std::prev(at);
+  return search_error(spectra, *std::prev(at), *at, error);
 }
 
 LodLevel level_of_distance(const LodSpectra& spectra, double distance) {

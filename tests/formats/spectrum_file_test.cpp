@@ -189,6 +189,12 @@ TEST(SpectrumFile, LevelsThatDoNotFitAreRefused) {
   EXPECT_TRUE(refused(s));
   s = levels(), s.schedule[1].triangles += 1;
   EXPECT_TRUE(refused(s));
+  s = levels(), s.leaves = {};  // one part alone: its triangles count too
+  for (auto* list : {&s.schedule, &s.discrete})
+    for (LodLevel& l : *list) l.leaf_steps = 0, l.triangles = s.trunk.counts[l.trunk_steps];
+  EXPECT_FALSE(refused(s));
+  s.discrete[1].triangles -= 1;
+  EXPECT_TRUE(refused(s));
   s = levels(), std::swap(s.discrete[0], s.discrete[1]);
   EXPECT_TRUE(refused(s));
   s = levels(), s.hysteresis = 1;

@@ -46,6 +46,9 @@ TEST(LimbChains, AForkGoesOnWithTheThickerChild) {
 
 TEST(LimbChains, NoHierarchyHasNoLimbs) {
   EXPECT_TRUE(limb_chains(Tree{}).empty());
+  Tree still = stem_with_twigs(4, 6, 3);  // of a .tree, whose lines name points of their own
+  still.hierarchy = {};
+  EXPECT_TRUE(limb_chains(still).empty());
 }
 
 }  // namespace

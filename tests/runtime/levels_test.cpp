@@ -94,10 +94,15 @@ TEST(Levels, BeyondTheLastStepIsTheLastStep) {
 LodSpectra two() {
   LodSpectra s;
   s.trunk = pairs(101, 2), s.leaves = pairs(201, 2);
+  // The leaves err by 0.1 m in the end, the trunk by 0.01 m a step.
+  std::vector<float> trunk, leaves;
+  for (int n = 0; n <= 100; ++n) trunk.push_back(0.01f * static_cast<float>(n));
+  for (int n = 0; n <= 200; ++n) leaves.push_back(0.0005f * static_cast<float>(n));
+  s.trunk.errors = trunk, s.leaves.errors = leaves;
   const auto level = [&](std::uint32_t n, std::uint32_t m, float error, float distance) {
     return LodLevel{n, m, s.trunk.counts[n] + s.leaves.counts[m], error, distance};
   };
-  s.schedule = {level(0, 0, 0, 1), level(20, 120, 0.1f, 2), level(100, 200, 1, 8)};
+  s.schedule = {level(0, 0, 0, 1), level(20, 120, 0.2f, 2), level(100, 200, 1, 8)};
   s.discrete = {level(10, 60, 0.1f, 100), level(20, 120, 0.2f, 500), level(100, 200, 1, 1500)};
   s.near = 10, s.far = 100, s.hysteresis = 0.1f;
   return s;
@@ -121,8 +126,29 @@ TEST(Levels, ByTrianglesNeverMoreThanAsked) {
 TEST(Levels, ByErrorTheCoarsestThatIsWithin) {
   const LodSpectra s = two();
   EXPECT_EQ(level_of_error(s, 0), s.schedule[0]);
-  EXPECT_EQ(level_of_error(s, 0.5), s.schedule[1]);
   EXPECT_EQ(level_of_error(s, 9), s.schedule[2]);
+  for (const double error : {0.005, 0.1, 0.2, 0.5, 0.77}) {
+    const LodLevel l = level_of_error(s, error);
+    EXPECT_LE(l.error, error);
+    EXPECT_EQ(l.error, std::max(s.trunk.errors[l.trunk_steps], s.leaves.errors[l.leaf_steps]));
+    EXPECT_GT(l.error, error - 0.011) << "not where a knot is, but where the error is";
+  }
+}
+
+TEST(Levels, OfOnePartAloneTheCountIsThatOfWhatIsDrawn) {
+  LodSpectra s = two();
+  s.leaves = {};
+  for (LodLevel& knot : s.schedule) knot.leaf_steps = 0, knot.triangles = s.trunk.counts[knot.trunk_steps];
+  s.trunk.counts = [&] {  // not in proportion to the steps
+    std::vector<std::uint32_t> counts(s.trunk.counts.begin(), s.trunk.counts.end());
+    for (std::size_t n = 1; n < 15; ++n) counts[n] = counts[20];
+    return counts;
+  }();
+  for (std::uint32_t triangles = 200; triangles > 2; triangles -= 7) {
+    const LodLevel l = level_of_triangles(s, triangles);
+    EXPECT_EQ(l.triangles, s.trunk.counts[l.trunk_steps]);
+    EXPECT_LE(l.triangles, triangles);
+  }
 }
 
 TEST(Levels, ByDistanceFallsFromFullToCoarsest) {

@@ -61,6 +61,31 @@ TEST_F(Lodbake, EveryLevelCanBeTakenFromTheFile) {
   EXPECT_LT(triangles({"--max-error", "100"}), full / 10);
 }
 
+TEST_F(Lodbake, TheTrunkOfAStillTreeGoesByEdges) {
+  const std::string still = folder_.file("oak.tree");
+  ASSERT_EQ(run_process({"treeprep", folder_.file("oak.obj"), "-o", still, "-q"}).status, 0);
+  out_ = folder_.file("oak.lod.tree");
+  const Outcome o = run_process({"lodbake", still, "-o", out_, "--discrete", "0.5,0.2", "--continuous"});
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.err.find("goes by edges"), std::string::npos) << o.err;
+  EXPECT_LE(triangles({"--level", "2"}), 236u / 5);
+  EXPECT_EQ(run_process({"treedump", out_, "--verify", "-q"}).status, 0);
+}
+
+TEST_F(Lodbake, ATreeOfOnePartHasTheTrianglesThatItSays) {
+  write_text(folder_.path() / "bare.obj", little_tree_obj(40, 12, 0));
+  ASSERT_EQ(run_process({"treeprep", folder_.file("bare.obj"), "-o", tree_, "-q"}).status, 0);
+  ASSERT_EQ(bake({"--discrete", "0.5,0.1", "--continuous"}).status, 0);
+  const auto levels = nlohmann::json::parse(run_process({"treedump", out_, "--json"}).out)["levels"];
+  const std::size_t full = triangles({});
+  for (const std::size_t i : {0u, 1u}) {
+    const std::size_t said = levels["discrete"][i]["triangles"];
+    EXPECT_EQ(triangles({"--level", std::to_string(i + 1)}), said) << i;
+  }
+  for (const double ratio : {0.7, 0.33, 0.1, 0.04})
+    EXPECT_LE(double(triangles({"--ratio", std::to_string(ratio)})), ratio * double(full)) << ratio;
+}
+
 TEST_F(Lodbake, WithoutContinuousTheFileHasWhatTheDiscreteLevelsNeedAndNoMore) {
   ASSERT_EQ(bake({"--discrete", "0.5,0.2", "--continuous"}).status, 0);
   const auto everything = std::filesystem::file_size(out_);

@@ -11,6 +11,8 @@
 
 #include <optional>
 
+#include <fmt/format.h>
+
 namespace copse::lodbake {
 namespace {
 
@@ -29,8 +31,12 @@ Spectrum trunk_by_edges(const Tree& tree, const Options& options) {
 Spectrum trunk_spectrum(const Tree& tree, const Options& options, Context& context) {
   Stage stage = context.stage("trunk");
   stage.items(tree.trunk.triangles.size(), "triangles");
-  return options.trunk == TrunkMethod::edges ? trunk_by_edges(tree, options)
-                                             : trunk_by_radii(tree, {.order = options.removal});
+  const bool hierarchy = tree.radius_count() > 0;
+  if (options.trunk == TrunkMethod::radii && !hierarchy && !tree.trunk.triangles.empty())
+    context.warn(
+        fmt::format("{}: without a hierarchy of radii the trunk goes by edges", options.input.string()));
+  return options.trunk == TrunkMethod::edges || !hierarchy ? trunk_by_edges(tree, options)
+                                                           : trunk_by_radii(tree, {.order = options.removal});
 }
 
 Spectrum leaf_spectrum(const Tree& tree, const Looks& looks, const Options& options, Context& context,

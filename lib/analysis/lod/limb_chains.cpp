@@ -13,6 +13,7 @@ std::vector<std::uint32_t> segments_by_child(const Tree& tree) {
 
 std::vector<LimbChain> limb_chains(const Tree& tree) {
   const Array<Radius>& radii = tree.hierarchy.radii;
+  if (radii.empty()) return {};  // the lines of a .tree name points, not radii
   const std::vector<std::uint32_t> segment = segments_by_child(tree), parent = parents(tree);
   std::vector<std::uint32_t> goes_on(radii.size(), k_none);  // the child that continues the limb
   for (std::uint32_t r = 0; r < radii.size(); ++r) {

@@ -18,7 +18,7 @@ struct LimbChain {
 // Of the children of a radius the thickest one that a segment joins (the first of equals) goes on with the
 // limb; every other child begins a limb: with the radius itself when a segment joins them, with the child
 // when it is a joint. A radius that no segment touches makes no limb of its own, but what hangs on it finds
-// the limb above. Every segment is in exactly one limb. O(radii).
+// the limb above. Every segment is in exactly one limb. A tree without a hierarchy has no limbs. O(radii).
 std::vector<LimbChain> limb_chains(const Tree& tree);
 
 }  // namespace copse
