@@ -159,10 +159,12 @@ std::string set_name(const VolumeSet& set) {
 Result<std::vector<std::uint8_t>> with_volumes(const Container& file, const TreeVolumes& volumes) {
   ContainerWriter writer(file);
   Result<void> state;
+  // A file whose tree is packed is to be small; elsewhere volumes are read in place.
+  const Encoding encoding = file.find("PACK") ? Encoding::zstd : Encoding::raw;
   const auto put = [&](std::string_view name, const auto& array) {
     writer.remove(name);
     if (array.empty() || !state) return;
-    state = writer.put(name, k_version, sizeof array[0], as_bytes(array));
+    state = writer.put(name, k_version, sizeof array[0], as_bytes(array), encoding);
   };
   put("VSET", volumes.sets);
   put("VOLU", volumes.volumes);

@@ -7,6 +7,13 @@
 
 namespace copse {
 
+namespace {
+
+// Elements: more are copied at once, fewer have to be looked at one by one where a window is half dead.
+constexpr std::size_t k_window = 512;
+
+}  // namespace
+
 LevelExtractor::LevelExtractor(const Spectrum& spectrum) : spectrum_(&spectrum) {
   const auto& elements = spectrum.elements;
   std::vector<std::uint32_t> order(elements.size());
@@ -14,80 +21,54 @@ LevelExtractor::LevelExtractor(const Spectrum& spectrum) : spectrum_(&spectrum) 
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return elements[a].material < elements[b].material;
   });
-  std::uint32_t widest = 0;
   first_index_.push_back(0);
+  births_.reserve(order.size()), deaths_.reserve(order.size()), first_index_.reserve(order.size() + 1);
   indices_.reserve(3 * spectrum.triangles.size());
-  for (const std::uint32_t e : order) {
-    const auto at = static_cast<std::uint32_t>(births_.size());
-    const std::uint32_t triangles = spectrum.first_triangle[e + 1] - spectrum.first_triangle[e];
-    if (runs_.empty() || runs_.back().material != elements[e].material) {
-      runs_.push_back({.material = elements[e].material,
-                       .first = at,
-                       .end = at,
-                       .narrowest = triangles,
-                       .widest = triangles});
-      materials_.push_back(elements[e].material);
+  for (std::size_t from = 0, to = 0; from < order.size(); from = to) {
+    const std::uint32_t material = elements[order[from]].material;
+    while (to < order.size() && to - from < k_window && elements[order[to]].material == material) ++to;
+    if (runs_.empty() || runs_.back().material != material) {
+      const auto at = static_cast<std::uint32_t>(windows_.size());
+      runs_.push_back({.material = material, .first = at, .end = at});
+      materials_.push_back(material);
     }
-    runs_.back().end = at + 1;
-    runs_.back().narrowest = std::min(runs_.back().narrowest, triangles);
-    runs_.back().widest = std::max(runs_.back().widest, triangles);
-    widest = std::max(widest, triangles);
-    births_.push_back(elements[e].birth), deaths_.push_back(elements[e].death);
-    for (std::uint32_t t = spectrum.first_triangle[e]; t < spectrum.first_triangle[e + 1]; ++t)
-      indices_.insert(indices_.end(), spectrum.triangles[t].begin(), spectrum.triangles[t].end());
-    first_index_.push_back(static_cast<std::uint32_t>(indices_.size()));
+    const std::span<std::uint32_t> window = std::span(order).subspan(from, to - from);
+    const std::uint32_t last = elements[window.front()].death, first = elements[window.back()].death;
+    std::stable_sort(window.begin(), window.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return elements[a].birth < elements[b].birth; });
+    windows_.push_back({.first = static_cast<std::uint32_t>(from),
+                        .end = static_cast<std::uint32_t>(to),
+                        .first_to_die = first,
+                        .last_to_die = last});
+    ++runs_.back().end;
+    for (const std::uint32_t e : window) {
+      births_.push_back(elements[e].birth), deaths_.push_back(elements[e].death);
+      for (std::uint32_t t = spectrum.first_triangle[e]; t < spectrum.first_triangle[e + 1]; ++t)
+        indices_.insert(indices_.end(), spectrum.triangles[t].begin(), spectrum.triangles[t].end());
+      first_index_.push_back(static_cast<std::uint32_t>(indices_.size()));
+    }
   }
-  indices_.resize(indices_.size() + 3 * std::size_t{widest});  // a copy may be wider than the last element
-  for (std::size_t b = 0; b < births_.size(); b += k_block) {
-    const auto from = births_.begin() + static_cast<std::ptrdiff_t>(b);
-    const auto [low, high] = std::minmax_element(
-        from, from + static_cast<std::ptrdiff_t>(std::min<std::size_t>(k_block, births_.size() - b)));
-    low_birth_.push_back(*low), high_birth_.push_back(*high);
-  }
-  // One element more than what is drawn: a copy is written before it is known whether it stays.
-  capacity_ = spectrum.counts.empty() ? 0 : 3 * (std::size_t{spectrum.counts[0]} + widest);
+  capacity_ = spectrum.counts.empty() ? 0 : 3 * std::size_t{spectrum.counts[0]};
 }
 
 std::size_t LevelExtractor::extract_run(const Run& run, std::uint32_t steps, std::uint32_t* out) const {
   std::uint32_t* at = out;
-  // By descending death: what is alive lies before the first element that is dead.
-  const auto first = deaths_.begin() + run.first, last = deaths_.begin() + run.end;
-  const auto end = static_cast<std::uint32_t>(
-      std::partition_point(first, last, [&](std::uint32_t death) { return death > steps; }) -
-      deaths_.begin());
-  for (std::uint32_t e = run.first; e < end;) {
-    const std::uint32_t block = e / k_block, stop = std::min(end, (block + 1) * k_block);
-    if (high_birth_[block] <= steps) {
-      const std::size_t n = first_index_[stop] - first_index_[e];
-      std::memcpy(at, indices_.data() + first_index_[e], n * sizeof *at);
-      at += n, e = stop;
-    } else if (low_birth_[block] > steps) {
-      e = stop;
-    } else if (run.narrowest == 2 && run.widest == 2) {
-      // Written whether it lives or not, and kept if it does: no branch to foretell.
-      for (; e < stop; ++e) {
-        std::memcpy(at, indices_.data() + first_index_[e], 6 * sizeof *at);
-        at += births_[e] <= steps ? 6 : 0;
-      }
-    } else if (run.widest == 2) {
-      // The same, each as if it had two.
-      for (; e < stop; ++e) {
-        std::memcpy(at, indices_.data() + first_index_[e], 6 * sizeof *at);
-        at += births_[e] <= steps ? first_index_[e + 1] - first_index_[e] : 0;
-      }
-    } else if (run.widest == 1) {
-      for (; e < stop; ++e) {
-        std::memcpy(at, indices_.data() + first_index_[e], 3 * sizeof *at);
-        at += births_[e] <= steps ? 3 : 0;
-      }
-    } else {
-      for (; e < stop; ++e) {
-        if (births_[e] > steps) continue;
-        const std::size_t n = first_index_[e + 1] - first_index_[e];
-        std::memcpy(at, indices_.data() + first_index_[e], n * sizeof *at);
-        at += n;
-      }
+  const auto copy = [&](std::size_t first, std::size_t end) {
+    const std::size_t n = first_index_[end] - first_index_[first];
+    std::memcpy(at, indices_.data() + first_index_[first], n * sizeof *at);
+    at += n;
+  };
+  for (std::uint32_t w = run.first; w < run.end && windows_[w].last_to_die > steps; ++w) {
+    const Window& window = windows_[w];
+    const auto births = births_.begin();
+    const auto born = static_cast<std::size_t>(
+        std::upper_bound(births + window.first, births + window.end, steps) - births);
+    if (window.first_to_die > steps) {
+      if (born > window.first) copy(window.first, born);
+      continue;
     }
+    for (std::size_t e = window.first; e < born; ++e)
+      if (deaths_[e] > steps) copy(e, e + 1);
   }
   return static_cast<std::size_t>(at - out);
 }

@@ -19,8 +19,8 @@ class LevelExtractor {
   explicit LevelExtractor(const Spectrum& spectrum);
 
   // Writes the indices of what is drawn after `steps` steps (clamped), three a triangle; returns how many.
-  // `out` must hold capacity() indices. Material after material in the order of materials(). Cost: the
-  // indices that are written, and a look at each element that is made later.
+  // `out` must hold capacity() indices. Material after material in the order of materials(). Cost: that of
+  // copying the indices that are written, in pieces of some hundred elements.
   std::size_t extract(std::uint32_t steps, std::span<std::uint32_t> out) const;
   // The same for the elements of one material: indices of them alone.
   std::size_t extract(std::uint32_t steps, std::uint32_t material, std::span<std::uint32_t> out) const;
@@ -29,19 +29,23 @@ class LevelExtractor {
   const std::vector<std::uint32_t>& materials() const { return materials_; }  // ascending
 
  private:
-  static constexpr std::uint32_t k_block = 64;  // elements
-  // Elements of one material by descending death, with so many triangles each.
-  struct Run {
-    std::uint32_t material = 0, first = 0, end = 0, narrowest = 0, widest = 0;
+  // Neighbours by descending death, sorted by birth among themselves: while none of them is dead, what is
+  // alive is a prefix.
+  struct Window {
+    std::uint32_t first = 0, end = 0;  // elements
+    std::uint32_t first_to_die = 0, last_to_die = 0;
+  };
+  struct Run {                                       // of one material
+    std::uint32_t material = 0, first = 0, end = 0;  // windows
   };
   std::size_t extract_run(const Run& run, std::uint32_t steps, std::uint32_t* out) const;
 
   const Spectrum* spectrum_;
   std::vector<Run> runs_;
-  std::vector<std::uint32_t> births_, deaths_;  // in the order of the runs
+  std::vector<Window> windows_;
+  std::vector<std::uint32_t> births_, deaths_;  // in the order of the windows
   std::vector<std::uint32_t> first_index_;      // elements + 1
   std::vector<std::uint32_t> indices_;
-  std::vector<std::uint32_t> low_birth_, high_birth_;  // of every k_block elements
   std::vector<std::uint32_t> materials_;
   std::size_t capacity_ = 0;
 };

@@ -91,6 +91,18 @@ TEST(TreeVolumes, AreReplacedAndRemovedWithoutATrace) {
   EXPECT_EQ(*with_volumes(*Container::from_bytes(once, "tree"), {}), tree_bytes());
 }
 
+TEST(TreeVolumes, AreCompressedBesideAPackedTreeAndInPlaceElsewhere) {
+  const auto encoding = [](const Container& file) {
+    const auto bytes = with_volumes(file, sample().volumes_of());
+    return Container::from_bytes(*bytes, "tree")->find("VOLU")->encoding;
+  };
+  const Container plain = *Container::from_bytes(tree_bytes(), "tree");
+  EXPECT_EQ(encoding(plain), Encoding::raw);
+  ContainerWriter writer(plain);
+  ASSERT_TRUE(writer.put("PACK", 1, 1, Bytes{0}));
+  EXPECT_EQ(encoding(*Container::from_bytes(*writer.finish(), "tree")), Encoding::zstd);
+}
+
 TEST(TreeVolumes, EverySectionHasTheBytesOfTheSpecification) {
   const Bytes bytes = with(sample());
   const std::size_t set = tampering::section_at(bytes, "VSET");
