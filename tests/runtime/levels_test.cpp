@@ -53,11 +53,21 @@ std::multiset<std::uint32_t> expected(const Spectrum& s, std::uint32_t step) {
 }
 
 TEST(Levels, ExtractionGivesExactlyWhatIsAlive) {
-  for (const auto& [triangles, mixed] : {std::pair{1u, false}, {2u, false}, {2u, true}, {5u, true}}) {
-    const Spectrum s = pairs(300, triangles, mixed);
+  struct Case {
+    std::uint32_t elements, triangles, stride;
+    bool mixed;
+  };
+  // Few elements, and many: more than are copied at once.
+  for (const auto& [elements, triangles, stride, mixed] : {Case{300, 1, 13, false},
+                                                           {300, 2, 13, false},
+                                                           {300, 2, 13, true},
+                                                           {300, 5, 13, true},
+                                                           {3000, 1, 499, false},
+                                                           {3000, 2, 499, true}}) {
+    const Spectrum s = pairs(elements, triangles, mixed);
     const LevelExtractor extractor(s);
     std::vector<std::uint32_t> out(extractor.capacity());
-    for (std::uint32_t step = 0; step <= s.steps(); step += 13) {
+    for (std::uint32_t step = 0; step <= s.steps(); step += stride) {
       const std::size_t n = extractor.extract(step, out);
       ASSERT_EQ(n, 3 * s.counts[step]);
       EXPECT_EQ(std::multiset<std::uint32_t>(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(n)),
