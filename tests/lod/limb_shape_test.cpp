@@ -26,7 +26,7 @@ struct Limb {
 std::vector<SpectrumVertex> ring_vertices(const LimbShape& shape, std::size_t i, std::size_t interval,
                                           std::uint32_t sides, double angle) {
   std::vector<SpectrumVertex> out;
-  shape.append_ring(i, interval, sides, angle, out);
+  shape.append_ring(i, interval, sides, angle, 1, out);
   return out;
 }
 
@@ -88,6 +88,57 @@ TEST(LimbShape, LeavingOutABendCostsItsDeviation) {
   const Limb limb(tree_of(tube));
   EXPECT_NEAR(limb.shape.largest_error(0, 2), 0.5, 1e-6);
   EXPECT_GT(limb.shape.area_error(0, 2), 0.2);
+}
+
+TEST(LimbShape, WhatIsMadeStraightIsWiderByWhatItLosesInLength) {
+  Tube tube;
+  const auto a = tube.add_ring({0, 0, 0}, 0.1, 6, k_none), b = tube.add_ring({0.5, 1, 0}, 0.1, 6, a);
+  tube.add_ring({0, 2, 0}, 0.1, 6, b);
+  const Limb limb(tree_of(tube));
+  const std::uint32_t ends[] = {0, 2}, all[] = {0, 1, 2};
+  EXPECT_EQ(limb.shape.wider(all), 1);
+  EXPECT_NEAR(limb.shape.wider(ends), std::hypot(1, 0.5), 0.05);  // in steps of a twentieth
+}
+
+TEST(LimbShape, WhatIsThickerThanBothEndsIsWiderWithoutItsMiddleButNotWithoutLimit) {
+  const auto bulging = [](double middle) {
+    Tube tube;
+    const auto a = tube.add_ring({0, 0, 0}, 0.1, 6, k_none), b = tube.add_ring({0, 1, 0}, middle, 6, a);
+    tube.add_ring({0, 2, 0}, 0.1, 6, b);
+    return Limb(tree_of(tube));
+  };
+  const std::uint32_t ends[] = {0, 2};
+  EXPECT_NEAR(bulging(0.14).shape.wider(ends), 1.2, 1e-9);
+  EXPECT_EQ(bulging(0.9).shape.wider(ends), 1.5);
+}
+
+// The third ring of a stem with other heights of its vertices.
+template <class Height>
+Limb with_heights(Height height) {
+  Tree tree = stem_with_twigs(5, 8, 0);
+  std::vector<Float3> vectors = tree.hierarchy.vectors.to_vector();
+  for (std::size_t v = tree.first_vector_of(2); v < tree.first_vector_of(3); ++v)
+    vectors[v].y = height(vectors[v], v);
+  tree.hierarchy.vectors = vectors;
+  return Limb(std::move(tree));
+}
+
+TEST(LimbShape, ATiltedRingStaysWhatItIsAndIsAsThickAsItLooks) {
+  const Limb limb = with_heights([](const Float3& v, std::size_t) { return 3 * v.x; });
+  const RingShape &tilted = limb.shape.ring(2), &level = limb.shape.ring(1);
+  EXPECT_EQ(tilted.sides, 8u);
+  EXPECT_NEAR(tilted.perimeter, level.perimeter, 1e-6);
+  EXPECT_NEAR(tilted.radius, level.radius, 0.03 * level.radius);
+}
+
+TEST(LimbShape, ACrownOfPointsIsNoRing) {
+  const Limb limb = with_heights([](const Float3&, std::size_t v) { return v % 2 == 0 ? 0.9f : -0.9f; });
+  EXPECT_EQ(limb.shape.ring(2).sides, 0u);
+}
+
+TEST(LimbShape, WhatIsThickForTheTreeCountsMore) {
+  const Limb limb(stem_with_twigs(5, 8, 0));  // 4 m high, 0.5 m of radius
+  EXPECT_NEAR(limb.shape.weight(0), 1 + 40 * 0.5 / 4, 0.01);
 }
 
 TEST(LimbShape, CountsItsTriangles) {

@@ -116,7 +116,8 @@ class Walk {
       : shape_(shape), rings_(rings), sides_(side_counts(shape.sides())) {
     for (std::size_t i = 0; i + 1 < shape.ring_count(); ++i) {
       const double l = shape.length_between(i, i + 1);
-      girth_ += l * 0.5 * (shape.ring(i).radius + shape.ring(i + 1).radius);
+      girth_ +=
+          l * 0.5 * (shape.ring(i).radius * shape.weight(i) + shape.ring(i + 1).radius * shape.weight(i + 1));
       rough_ += l * 0.5 * (shape.ring(i).residual + shape.ring(i + 1).residual);
     }
     for (std::size_t i = 0; i < shape.ring_count(); ++i)

@@ -9,13 +9,21 @@ namespace {
 
 constexpr double k_apart_widths =
     2;  // a tube that lies this many diameters aside is as wrong as can be, nearly
-constexpr double k_narrowest = 0.3;  // of a ring's perimeter
+constexpr double k_narrowest = 0.3, k_widest = 1.5;        // of a ring's perimeter
+constexpr double k_least_wider = 0.8, k_most_wider = 1.5;  // of what is made straight
+constexpr double k_wider_steps = 20;                       // in 1: rungs that differ little share their rings
+// A radius of so much of the tree's size doubles a weight: there five percent of the coverage and a mean
+// distance of .25 % of the height, what a level may err by, are the same.
+constexpr double k_heavy = 1.0 / 40;
 constexpr double k_turn = 2 * std::numbers::pi;
 constexpr double k_widest_gap = 2.6;  // radians between neighbours on a ring: a triangle has 2.1
 constexpr double k_inner_share =
     0.25;  // of the mean radius: nearer the centre is a lid's middle, no ring vertex
-constexpr double k_point_share = 0.05;  // of the ring before: a thinner last ring is a point
-constexpr std::size_t k_samples = 16;   // rings looked at when an interval's error is taken
+constexpr double k_point_share = 0.05;           // of the ring before: a thinner last ring is a point
+constexpr double k_level = 1.2, k_steepest = 4;  // radii along the axis, of a level ring and of a tilted one
+constexpr double k_once = 2.5;                   // of its height: up once and down once is twice
+constexpr double k_tilted = 0.8;       // of its perimeter: what a tilted ring measures across the axis
+constexpr std::size_t k_samples = 16;  // rings looked at when an interval's error is taken
 constexpr double k_ribbon_width =
     std::numbers::pi / 2;  // in diameters: a flat strip seen from all round is 2/pi wide
 
@@ -44,6 +52,29 @@ Double3 across(const Double3& axis) {
   return normalized(cross(axis, other), {1, 0, 0});
 }
 
+// What is left of a vector across the axis.
+Double3 across_of(const Double3& d, const Double3& axis) {
+  return d - axis * dot(d, axis);
+}
+
+// Whether the vertices go once round the axis, near a plane: level, or tilted (then they go up once and down
+// once), but no crown of points, as where several limbs begin.
+bool goes_round(const RingShape& ring, std::span<const RingCorner> polygon) {
+  double low = 0, high = 0, up_and_down = 0, widest = 0, narrowest = k_turn;
+  const auto height = [&](const RingCorner& c) { return dot(c.place - ring.centre, ring.axis); };
+  for (std::size_t j = 0; j < polygon.size(); ++j) {
+    const bool last = j + 1 == polygon.size();
+    const RingCorner& next = polygon[last ? 0 : j + 1];
+    const double gap = next.angle - polygon[j].angle + (last ? k_turn : 0), h = height(polygon[j]);
+    widest = std::max(widest, gap), narrowest = std::min(narrowest, gap);
+    low = std::min(low, h), high = std::max(high, h);
+    up_and_down += std::abs(height(next) - h);
+  }
+  const double off = std::max(high, -low) / ring.radius;
+  return narrowest > 1e-4 && widest < k_widest_gap &&
+         (off < k_level || (off < k_steepest && up_and_down < k_once * (high - low)));
+}
+
 bool near_texcoord(const Float2& a, const Float2& b) {
   return std::abs(a.x - b.x) < 1e-3f && std::abs(a.y - b.y) < 1e-3f;
 }
@@ -53,22 +84,28 @@ bool near_texcoord(const Float2& a, const Float2& b) {
 LimbShape::LimbShape(const Tree& tree, const std::vector<Double3>& centres, const PartTriangles& trunk,
                      const LimbChain& limb)
     : tree_(tree), trunk_(trunk), limb_(limb) {
+  const Float3 extent = tree.header.bounds.empty() ? Float3{} : tree.header.bounds.extent();
+  size_ = std::max({extent.x, extent.y, extent.z});
   make_frames(centres);
   for (std::size_t i = 0; i < rings_.size(); ++i) read_ring(i);
   first_angle_.push_back(static_cast<std::uint32_t>(angles_.size()));
   const std::size_t intervals = limb.segments.size();
-  any_texcoord_.resize(intervals), regular_.resize(intervals), narrowed_.assign(intervals, 1);
+  any_texcoord_.resize(intervals), regular_.resize(intervals), width_.assign(intervals, {1, 1});
   const RingShape &last = rings_.back(), &before = rings_[rings_.size() - 2];
   pointed_ = last.radius <= k_point_share * before.radius;
   std::array<std::vector<RingSide>, 2> scratch;
   for (std::size_t i = 0; i < intervals; ++i) read_sides(i, scratch);
+  thin_out_radii();
   choose_phases();
 }
 
 void LimbShape::make_frames(const std::vector<Double3>& centres) {
   const std::size_t n = limb_.radii.size();
   rings_.resize(n), along_.assign(n, 0);
-  for (std::size_t i = 0; i < n; ++i) rings_[i].centre = centres[limb_.radii[i]];
+  for (std::size_t i = 0; i < n; ++i) {
+    rings_[i].centre = centres[limb_.radii[i]];
+    rings_[i].radius = 0.5 * tree_.hierarchy.radii[limb_.radii[i]].diameter;
+  }
   for (std::size_t i = 1; i < n; ++i)
     along_[i] = along_[i - 1] + distance(rings_[i].centre, rings_[i - 1].centre);
   const auto direction = [&](std::size_t i) { return normalized(rings_[i + 1].centre - rings_[i].centre); };
@@ -92,7 +129,6 @@ double LimbShape::angle(std::size_t i, const Double3& d) const {
 void LimbShape::read_ring(std::size_t i) {
   RingShape& ring = rings_[i];
   const std::uint32_t r = limb_.radii[i];
-  ring.radius = 0.5 * tree_.hierarchy.radii[r].diameter;
   const std::size_t first = tree_.first_vector_of(r), end = tree_.first_vector_of(r + 1);
   const double inner = k_inner_share * ring.radius;
   double residual = 0;
@@ -102,26 +138,24 @@ void LimbShape::read_ring(std::size_t i) {
   for (std::size_t v = first; v < end; ++v) {
     const Double3 d = to_double(tree_.hierarchy.vectors[v]);
     angles_.push_back(angle(i, d));
-    const Double3 flat = d - ring.axis * dot(d, ring.axis);
-    if (length(flat) <= inner) continue;
-    residual += (length(flat) - ring.radius) * (length(flat) - ring.radius);
+    const double off = length(across_of(d, ring.axis));
+    if (off <= inner) continue;
+    residual += (off - ring.radius) * (off - ring.radius);
     corners_.push_back({angles_.back(), ring.centre + d});
   }
   const std::span<RingCorner> polygon = std::span(corners_).subspan(base);
   std::stable_sort(polygon.begin(), polygon.end(),
                    [](const RingCorner& a, const RingCorner& b) { return a.angle < b.angle; });
   const std::size_t n = polygon.size();
-  bool round = n >= 3 && n <= 64;
-  for (std::size_t j = 0; round && j < n; ++j) {
-    const double gap =
-        j + 1 < n ? polygon[j + 1].angle - polygon[j].angle : polygon[0].angle + k_turn - polygon[j].angle;
-    const Double3 d = polygon[j].place - ring.centre;
-    round = gap > 1e-4 && gap < k_widest_gap && std::abs(dot(d, ring.axis)) < 1.2 * ring.radius;
-  }
-  if (round) {
+  if (n >= 3 && n <= 64 && goes_round(ring, polygon)) {
     ring.sides = static_cast<std::uint32_t>(n);
-    for (std::size_t j = 0; j < n; ++j)
-      ring.perimeter += distance(polygon[j].place, polygon[(j + 1) % n].place);
+    double edges = 0;
+    for (std::size_t j = 0; j < n; ++j) {
+      const Double3 side = polygon[(j + 1) % n].place - polygon[j].place;
+      edges += length(side);
+      ring.perimeter += length(across_of(side, ring.axis));
+    }
+    if (ring.perimeter < k_tilted * edges) ring.radius = ring.perimeter / k_turn;
   } else {
     ring.residual = n == 0 ? 0 : std::sqrt(residual / static_cast<double>(n));
     corners_.resize(base);
@@ -145,6 +179,7 @@ void LimbShape::read_sides(std::size_t interval, std::array<std::vector<RingSide
     return angles_[first_angle_[interval + e] + (trunk_.position_of[v] - first[e])];
   };
   for (auto& list : scratch) list.clear();
+  std::array<std::vector<std::array<std::uint32_t, 2>>, 2> loops;  // positions at the ends of the sides
   bool plain = true, lid = false;
   std::size_t band = 0;
   double area = 0;
@@ -169,6 +204,7 @@ void LimbShape::read_sides(std::size_t interval, std::array<std::vector<RingSide
       const std::size_t d = (c + 1) % 3;
       if (on[c] != on[d]) continue;
       const auto e = static_cast<std::size_t>(on[c]);
+      loops[e].push_back({corners[c], corners[d]});
       const SpectrumVertex &a = trunk_.vertices[corners[c]], &b = trunk_.vertices[corners[d]];
       RingSide side{angle_of(corners[c], e), angle_of(corners[d], e), a.texcoord, b.texcoord};
       if (positive(side.to - side.from) > std::numbers::pi) {
@@ -191,6 +227,37 @@ void LimbShape::read_sides(std::size_t interval, std::array<std::vector<RingSide
       plain && ka >= 3 && (kb >= 3 || cone) && band >= ka && band <= ka + std::max<std::size_t>(kb, 1);
   if (interval + 2 == rings_.size()) capped_ = lid && !pointed_;
   if (!regular_[interval] && is_fork(interval)) narrow(interval, area);
+  for (const std::size_t e : {0u, 1u}) fit_width(interval, e, loops[e]);
+}
+
+// Where the interval's own triangles go round in another number of sides than the ring has, as where limbs
+// are welded together, the tube is as wide as they are.
+void LimbShape::fit_width(std::size_t interval, std::size_t end,
+                          const std::vector<std::array<std::uint32_t, 2>>& loop) {
+  const RingShape& ring = rings_[interval + end];
+  if (loop.size() < 3 || loop.size() == ring.sides || !(ring.perimeter > 0)) return;
+  std::vector<std::uint32_t> places;
+  double perimeter = 0;
+  for (const auto& side : loop) {
+    for (const std::uint32_t v : side) places.push_back(trunk_.position_of[v]);
+    perimeter += length(
+        across_of(to_double(trunk_.vertices[side[0]].position) - to_double(trunk_.vertices[side[1]].position),
+                  ring.axis));
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  const bool closed = places.size() == loop.size();
+  if (closed) width_[interval][end] = std::clamp(perimeter / ring.perimeter, k_narrowest, k_widest);
+}
+
+// A radius is what is seen of the limb there.
+void LimbShape::thin_out_radii() {
+  const std::size_t intervals = width_.size();
+  for (std::size_t i = 0; i <= intervals; ++i) {
+    const double in = width_[i == 0 ? 0 : i - 1][i == 0 ? 0 : 1],
+                 out = width_[i == intervals ? i - 1 : i][i == intervals ? 1 : 0];
+    rings_[i].radius *= 0.5 * (in + out);
+  }
 }
 
 // Whether surfaces of several limbs begin at the ring.
@@ -210,7 +277,7 @@ void LimbShape::narrow(std::size_t interval, double area) {
   const double along = along_[interval + 1] - along_[interval],
                slant = std::hypot(along, (low.perimeter - high.perimeter) / k_turn);
   if (!(slant > 0) || !(low.perimeter > 0)) return;
-  narrowed_[interval] = std::clamp((2 * area / slant - high.perimeter) / low.perimeter, k_narrowest, 1.0);
+  width_[interval][0] = std::clamp((2 * area / slant - high.perimeter) / low.perimeter, k_narrowest, 1.0);
 }
 
 double LimbShape::area_of(const std::array<std::uint32_t, 3>& corners) const {
@@ -221,7 +288,25 @@ double LimbShape::area_of(const std::array<std::uint32_t, 3>& corners) const {
 }
 
 double LimbShape::width(std::size_t i, std::size_t interval) const {
-  return i == interval ? narrowed_[interval] : 1;
+  return width_[interval][i - interval];
+}
+
+double LimbShape::wider(std::span<const std::uint32_t> kept) const {
+  double area = 0, straight = 0;
+  for (std::size_t i = 0; i + 1 < rings_.size(); ++i) area += length_between(i, i + 1) * girth(i, i + 1);
+  for (std::size_t k = 0; k + 1 < kept.size(); ++k)
+    straight += distance(rings_[kept[k]].centre, rings_[kept[k + 1]].centre) * girth(kept[k], kept[k + 1]);
+  if (!(straight > 0)) return 1;
+  return std::round(std::clamp(area / straight, k_least_wider, k_most_wider) * k_wider_steps) / k_wider_steps;
+}
+
+// The mean perimeter of the tube from ring a to ring b.
+double LimbShape::girth(std::size_t a, std::size_t b) const {
+  return 0.5 * (width(a, a) * rings_[a].perimeter + width(b, b - 1) * rings_[b].perimeter);
+}
+
+double LimbShape::weight(std::size_t i) const {
+  return size_ > 0 ? 1 + rings_[i].radius / (k_heavy * size_) : 1;
 }
 
 bool LimbShape::regular() const {
@@ -319,7 +404,7 @@ void LimbShape::errors(std::size_t a, std::size_t b, double& area, double& large
     // What is seen of a limb that moved aside is what it covers no more and what it covers anew: no more than
     // all of it, however far it went.
     const double most = 2 * k_apart_widths * rings_[i].radius;
-    sum += (off > 0 ? off * most / (off + most) : 0) + 0.5 * thick;
+    sum += ((off > 0 ? off * most / (off + most) : 0) + 0.5 * thick) * weight(i);
     largest = std::max(largest, off + thick);
   }
   area = taken == 0 ? 0
@@ -353,13 +438,13 @@ Float2 LimbShape::ring_texcoord(std::size_t i, std::size_t interval, std::uint32
 }
 
 void LimbShape::append_ring(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
-                            std::vector<SpectrumVertex>& out) const {
+                            double wider, std::vector<SpectrumVertex>& out) const {
   const RingShape& ring = rings_[i];
   const auto texture = [&](std::size_t j) { return ring_texcoord(i, interval, sides, ribbon_angle, j); };
   if (sides == 2) {
     const Double3 wide = ring.x * std::cos(ribbon_angle) + ring.y * std::sin(ribbon_angle);
     const Double3 face = cross(wide, ring.axis);
-    const double half = k_ribbon_width * width(i, interval) * ring.perimeter / k_turn;
+    const double half = k_ribbon_width * wider * width(i, interval) * ring.perimeter / k_turn;
     for (const double side : {-1.0, 1.0})
       out.push_back({to_float(ring.centre + wide * (side * half)), to_float(normalized(face + wide * side)),
                      texture(side < 0 ? 0 : 1)});
@@ -369,16 +454,18 @@ void LimbShape::append_ring(std::size_t i, std::size_t interval, std::uint32_t s
   std::vector<Double3> places(sides);
   double perimeter = 0;
   for (std::uint32_t j = 0; j < sides; ++j) places[j] = sample(i, ring.phase + k_turn * j / sides);
-  for (std::uint32_t j = 0; j < sides; ++j) perimeter += distance(places[j], places[(j + 1) % sides]);
+  for (std::uint32_t j = 0; j < sides; ++j)
+    perimeter += length(across_of(places[(j + 1) % sides] - places[j], ring.axis));
   // As wide, seen from all round, as the ring itself: the mean width of a convex outline is its perimeter /
   // pi.
-  const double scale = width(i, interval) * (perimeter > 0 ? std::min(ring.perimeter / perimeter, 1.5) : 1);
+  const double scale =
+      wider * width(i, interval) * (perimeter > 0 ? std::min(ring.perimeter / perimeter, 1.5) : 1);
   for (std::uint32_t j = 0; j < sides; ++j) {
     const Double3 out_of = places[j] - ring.centre;
-    const Double3 flat = out_of - ring.axis * dot(out_of, ring.axis);
+    const Double3 off = across_of(out_of, ring.axis);
     const double at = ring.phase + k_turn * j / sides;
-    const bool point = dot(flat, flat) == 0;
-    const Double3 normal = point ? ring.x * std::cos(at) + ring.y * std::sin(at) : normalized(flat);
+    const bool point = dot(off, off) == 0;
+    const Double3 normal = point ? ring.x * std::cos(at) + ring.y * std::sin(at) : normalized(off);
     out.push_back({to_float(ring.centre + out_of * scale), to_float(normal), texture(j)});
   }
   out.push_back(out[first]);
@@ -388,12 +475,13 @@ void LimbShape::append_ring(std::size_t i, std::size_t interval, std::uint32_t s
 std::array<SpectrumVertex, 3> LimbShape::spike(double ribbon_angle) const {
   const std::size_t last = rings_.size() - 1;
   std::vector<SpectrumVertex> low, high;
-  append_ring(0, 0, 2, ribbon_angle, low);
-  append_ring(last, last - 1, 2, ribbon_angle, high);
+  const std::uint32_t ends[] = {0, static_cast<std::uint32_t>(last)};
+  append_ring(0, 0, 2, ribbon_angle, wider(ends), low);
+  append_ring(last, last - 1, 2, ribbon_angle, 1, high);
   const double first_width = width(0, 0) * rings_[0].perimeter;
-  const double wider = first_width > 0 ? 1 + rings_[last].perimeter / first_width : 1;
+  const double both = first_width > 0 ? 1 + rings_[last].perimeter / first_width : 1;
   for (SpectrumVertex& v : low)
-    v.position = to_float(rings_[0].centre + (to_double(v.position) - rings_[0].centre) * wider);
+    v.position = to_float(rings_[0].centre + (to_double(v.position) - rings_[0].centre) * both);
   high[0].position = to_float(rings_[last].centre);
   return {low[0], low[1], high[0]};
 }

@@ -22,8 +22,8 @@ struct RingSide {
 
 struct RingShape {
   Double3 centre, x, y, axis;  // right-handed frame; the ring lies across the axis
-  double radius = 0;           // mean
-  double perimeter = 0;        // of the polygon, or of the circle where there is none
+  double radius = 0;           // mean, across the axis
+  double perimeter = 0;        // of the polygon as seen along the axis, or of the circle where there is none
   double phase = 0;            // angle of the first vertex of a ring that is made: at the seam of the texture
   double residual = 0;         // rms distance of the ring's vertices from its polygon or circle
   std::uint32_t sides = 0;     // of the polygon; 0: a circle stands for it
@@ -53,9 +53,12 @@ class LimbShape {
   bool capped() const { return capped_; }
   std::uint32_t material(std::size_t interval) const;
 
-  // Mean distance, times length, between the tube that goes straight from ring a to ring b and the rings that
-  // it leaves out, saturating at two diameters: square metres of silhouette. Looks at no more than 16 of
-  // them.
+  // How much more than its silhouette a square metre of what is as thick as ring i counts: the more surface
+  // lies behind it, the more the mean distance of the surface suffers.
+  double weight(std::size_t i) const;
+  // Mean distance, times length and weight, between the tube that goes straight from ring a to ring b and the
+  // rings that it leaves out, saturating at two diameters: square metres of silhouette. Looks at no more than
+  // 16 of them.
   double area_error(std::size_t a, std::size_t b) const;
   // The largest distance of the same.
   double largest_error(std::size_t a, std::size_t b) const;
@@ -65,17 +68,24 @@ class LimbShape {
   std::uint32_t triangles(std::size_t kept, std::uint32_t sides) const;
 
   // Of what a ring measures, how much the tube has that begins or ends there in interval `interval` (i or i -
-  // 1): less than 1 at the beginning of a limb that is welded to others.
+  // 1): less than 1 where limbs that are welded together share a ring.
   double width(std::size_t i, std::size_t interval) const;
 
+  // How much wider a tube through the kept rings (ascending, two at least) has to be to have the area of the
+  // one through all: a chord is shorter than what is bent, and between its ends a twig may be thicker than
+  // both say. In steps of 1/20.
+  double wider(std::span<const std::uint32_t> kept) const;
+
   // Appends the vertices of ring i with so many sides, two at least, as they are in interval `interval` (i or
-  // i - 1): sides + 1, the last one where the first one is (the seam); two of a ribbon.
+  // i - 1): sides + 1, the last one where the first one is (the seam); two of a ribbon. `wider`: times as
+  // wide.
   void append_ring(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
-                   std::vector<SpectrumVertex>& out) const;
+                   double wider, std::vector<SpectrumVertex>& out) const;
   // The texture coordinate of vertex j of the same.
   Float2 ring_texcoord(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
                        std::size_t j) const;
-  // The limb as one triangle, as large as the ribbon from its first to its last ring, its tip at the last.
+  // The limb as one triangle, as large as the ribbon straight from its first to its last ring, its tip at the
+  // last.
   std::array<SpectrumVertex, 3> spike(double ribbon_angle) const;
 
  private:
@@ -91,6 +101,10 @@ class LimbShape {
   void read_sides(std::size_t interval, std::array<std::vector<RingSide>, 2>& scratch);
   bool is_fork(std::size_t i) const;
   void narrow(std::size_t interval, double area);
+  void fit_width(std::size_t interval, std::size_t end,
+                 const std::vector<std::array<std::uint32_t, 2>>& loop);
+  void thin_out_radii();
+  double girth(std::size_t a, std::size_t b) const;
   double area_of(const std::array<std::uint32_t, 3>& corners) const;
   void choose_phases();
   double angle(std::size_t i, const Double3& from_centre) const;
@@ -111,7 +125,8 @@ class LimbShape {
   std::vector<std::uint32_t> first_side_{0};  // two an interval, and the end
   std::vector<std::array<Float2, 2>> any_texcoord_;  // of every interval, at its two rings
   std::vector<std::uint8_t> regular_;
-  std::vector<double> narrowed_;  // of every interval, at its first ring
+  std::vector<std::array<double, 2>> width_;  // of every interval, at its two rings
+  double size_ = 0;                           // of the tree
   bool pointed_ = false, capped_ = false;
 };
 

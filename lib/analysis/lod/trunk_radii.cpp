@@ -64,17 +64,23 @@ class LimbTubes {
   void take(const LimbRung& rung, std::uint32_t birth) {
     before_.swap(now_), now_.clear();
     auto old = before_.begin();
+    const double wider = rung.kept.empty() ? 1 : shape_.wider(rung.kept);
     for (std::size_t i = 0; i + 1 < rung.kept.size(); ++i) {
       const std::uint32_t a = rung.kept[i], b = rung.kept[i + 1];
       const bool own = b == a + 1 && rung.sides == shape_.sides() && shape_.regular(a);
-      Interval interval{.a = a, .b = b, .sides = own ? 0 : rung.sides, .first_piece = piece_count()};
+      Interval interval{.a = a,
+                        .b = b,
+                        .sides = own ? 0 : rung.sides,
+                        .wider = own ? 1 : wider,
+                        .first_piece = piece_count()};
       while (old != before_.end() && old->a < a) bury(*old++, birth);
-      if (old != before_.end() && old->a == a && old->b == b && old->sides == interval.sides) {
+      if (old != before_.end() && old->a == a && old->b == b && old->sides == interval.sides &&
+          old->wider == interval.wider) {
         now_.push_back(*old++);
         continue;
       }
       begin(interval, birth, shape_.material(a));
-      add_tube(a, b, rung.sides, i + 2 == rung.kept.size());
+      add_tube(a, b, rung.sides, wider, i + 2 == rung.kept.size());
       interval.end_piece = piece_count();
       now_.push_back(interval);
     }
@@ -85,11 +91,13 @@ class LimbTubes {
   // Between two rings of the limb.
   struct Interval {
     std::uint32_t a = 0, b = 0, sides = 0;  // sides 0: the mesh's own triangles
+    double wider = 1;
     std::uint32_t first_piece = 0, end_piece = 0;
   };
   // The vertices of a ring as the interval before or behind it has them.
   struct Ring {
     std::uint32_t sides = 0, first = 0;
+    double wider = 1;
   };
 
   std::uint32_t piece_count() const { return static_cast<std::uint32_t>(out_.pieces.size()); }
@@ -122,12 +130,13 @@ class LimbTubes {
 
   // Where the numbers of the vertices of a ring as they are in an interval begin in numbers_; equal vertices
   // of both intervals are shared.
-  std::uint32_t ring(std::uint32_t i, std::uint32_t interval, std::uint32_t sides) {
+  std::uint32_t ring(std::uint32_t i, std::uint32_t interval, std::uint32_t sides, double wider) {
     Ring& own = rings_[2 * i + (i == interval ? 1 : 0)];
-    if (own.sides == sides) return own.first;
-    own = {sides, static_cast<std::uint32_t>(numbers_.size())};
+    if (own.sides == sides && own.wider == wider) return own.first;
+    own = {sides, static_cast<std::uint32_t>(numbers_.size()), wider};
     const Ring& other = rings_[2 * i + (i == interval ? 0 : 1)];
-    const bool alike = other.sides == sides && (i == 0 || shape_.width(i, i) == shape_.width(i, i - 1));
+    const bool alike = other.sides == sides && other.wider == wider &&
+                       (i == 0 || shape_.width(i, i) == shape_.width(i, i - 1));
     scratch_.clear();
     if (alike) {
       for (std::uint32_t j = 0; j < (sides == 2 ? 2 : sides + 1); ++j) {
@@ -135,7 +144,7 @@ class LimbTubes {
         scratch_.back().texcoord = shape_.ring_texcoord(i, interval, sides, ribbon_angle(), j);
       }
     } else {
-      shape_.append_ring(i, interval, sides, ribbon_angle(), scratch_);
+      shape_.append_ring(i, interval, sides, ribbon_angle(), wider, scratch_);
     }
     for (std::size_t j = 0; j < scratch_.size(); ++j) {
       const SpectrumVertex& v = scratch_[j];
@@ -150,14 +159,14 @@ class LimbTubes {
     return own.first;
   }
 
-  void add_tube(std::uint32_t a, std::uint32_t b, std::uint32_t sides, bool last) {
+  void add_tube(std::uint32_t a, std::uint32_t b, std::uint32_t sides, double wider, bool last) {
     if (sides == 1) {
       const auto corners = shape_.spike(ribbon_angle());
       add({make(corners[0]), make(corners[1]), make(corners[2])});
       return;
     }
     const bool point = last && shape_.pointed();
-    const std::uint32_t first_low = ring(a, a, sides), first_high = ring(b, b - 1, sides);
+    const std::uint32_t first_low = ring(a, a, sides, wider), first_high = ring(b, b - 1, sides, wider);
     const auto low = [&](std::uint32_t j) { return numbers_[first_low + j]; };
     const auto high = [&](std::uint32_t j) { return numbers_[first_high + j]; };
     if (sides == 2) {
