@@ -1,6 +1,7 @@
 #include "lib/formats/import/image.h"
 
 #include "lib/formats/import/images/plugin.h"
+#include "lib/formats/import/plain_image.h"
 #include "lib/formats/import/source.h"
 
 #include <algorithm>
@@ -198,9 +199,11 @@ Result<Image> read_image(std::span<const std::uint8_t> bytes, const std::string&
   const char* format = format_of(bytes, name);
   if (format == nullptr)
     return refuse(name, "is of no image format that is read here", "convert it to PNG or JPEG");
+  Image image;
+  if (decode_plain_image(bytes, image)) return image;
+  image = {};
   const Result<const Plugin*> library = plugin(name);
   if (!library) return std::unexpected(library.error());
-  Image image;
   CopseImageError error{};
   if ((*library)->decode(bytes.data(), bytes.size(), format, allocate, &image, &error) != 0)
     return refuse(name, fmt::format("cannot be read as {}: {}", format, one_line(error.text)),
