@@ -27,10 +27,28 @@ TrunkMesh slanted_tube() {
   return mesh;
 }
 
+// Squares that have been sheared to slivers: by its shape none is a quad.
+TEST(Quads, AreReadFromTheOrderOfTheFileHoweverSlantedWhereNothingElseCounts) {
+  TrunkMesh strip;
+  for (std::uint32_t i = 0; i <= 6; ++i) {
+    strip.positions.push_back({static_cast<double>(i), 0, 0});
+    strip.positions.push_back({static_cast<double>(i) + 60, 1, 0});
+  }
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    strip.triangles.push_back({2 * i, 2 * i + 2, 2 * i + 3});
+    strip.triangles.push_back({2 * i, 2 * i + 3, 2 * i + 1});
+  }
+  const Surface s = surface_of(strip);
+  const std::vector<std::uint32_t> taken(s.triangles.size(), k_none);
+  const auto partner = pair_quads(s, taken, QuadOrder::file_only);
+  for (std::uint32_t t = 0; t < partner.size(); ++t) EXPECT_EQ(partner[t], t ^ 1u);
+  EXPECT_NE(pair_quads(s, taken, QuadOrder::file), partner);
+}
+
 TEST(Quads, AreReadFromTheOrderOfTheFile) {
   const Surface s = surface_of(slanted_tube());
   const std::vector<std::uint32_t> taken(s.triangles.size(), k_none);
-  const auto partner = pair_quads(s, taken, true);
+  const auto partner = pair_quads(s, taken, QuadOrder::file);
   for (std::uint32_t t = 0; t < partner.size(); ++t) EXPECT_EQ(partner[t], t ^ 1u);
 }
 
@@ -38,7 +56,7 @@ TEST(Quads, AreReadFromTheirShapeInAnyOrder) {
   std::vector<Cell> cells{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
   const Surface s = surface_of(shuffled(smooth_cells(cells, 0), 4));
   const std::vector<std::uint32_t> taken(s.triangles.size(), k_none);
-  const auto partner = pair_quads(s, taken, false);
+  const auto partner = pair_quads(s, taken, QuadOrder::shape);
   for (std::uint32_t t = 0; t < partner.size(); ++t) {
     ASSERT_NE(partner[t], k_none);
     EXPECT_EQ(partner[partner[t]], t);
@@ -49,8 +67,8 @@ TEST(Quads, LeaveTakenTrianglesAlone) {
   const Surface s = surface_of(slanted_tube());
   std::vector<std::uint32_t> taken(s.triangles.size(), k_none);
   taken[4] = taken[5] = 0;
-  for (const bool in_order : {false, true}) {
-    const auto partner = pair_quads(s, taken, in_order);
+  for (const QuadOrder order : {QuadOrder::shape, QuadOrder::file, QuadOrder::file_only}) {
+    const auto partner = pair_quads(s, taken, order);
     EXPECT_EQ(partner[4], k_none);
     EXPECT_EQ(partner[5], k_none);
   }
@@ -62,7 +80,7 @@ TEST(QuadBands, GoRoundALimbAndNotAlongIt) {
   const Surface s = surface_of(smooth_cells(cells, 1));
   Bands bands;
   bands.band_of.assign(s.triangles.size(), k_none);
-  add_quad_bands(s, pair_quads(s, bands.band_of, true), bands);
+  add_quad_bands(s, pair_quads(s, bands.band_of, QuadOrder::file), bands);
   EXPECT_GE(bands.count(), 14u);
   for (std::uint32_t r = 0; r < 2 * bands.count(); ++r) {
     EXPECT_EQ(bands.ring(r).size(), 8u);
@@ -76,7 +94,7 @@ TEST(QuadBands, OfAMoebiusStripAreNone) {
   const Surface s = surface_of(moebius(20));
   Bands bands;
   bands.band_of.assign(s.triangles.size(), k_none);
-  add_quad_bands(s, pair_quads(s, bands.band_of, true), bands);
+  add_quad_bands(s, pair_quads(s, bands.band_of, QuadOrder::file), bands);
   EXPECT_EQ(bands.count(), 0u);
 }
 

@@ -68,12 +68,12 @@ std::vector<std::uint32_t> taken(const Bands& bands) {
   return taken;
 }
 
-Bands read_bands(const Surface& surface, Ends ends, bool in_order) {
+Bands read_bands(const Surface& surface, Ends ends, QuadOrder order) {
   Bands bands;
   bands.band_of.assign(surface.triangles.size(), k_none);
   grow_from_ends(surface, ends, bands);
   if (!is_complete(surface, bands)) {
-    add_quad_bands(surface, pair_quads(surface, taken(bands), in_order), bands);
+    add_quad_bands(surface, pair_quads(surface, taken(bands), order), bands);
     BandGrowth growth(surface, bands);
     growth.start_at_bands(0);
     growth.run(false);
@@ -129,11 +129,11 @@ Bands read_bands(const Surface& surface) {
     grow_from_ends(surface, ends, counted);
     if (is_complete(surface, counted)) return counted;
   }
-  Bands bands = read_bands(surface, Ends::pointed, true);
+  Bands bands = read_bands(surface, Ends::pointed, QuadOrder::file);
   const auto enough = k_enough_bands * static_cast<double>(surface.triangles.size());
   for (const Ends ends : {Ends::pointed, Ends::lidded}) {
     if (static_cast<double>(bands.explained()) >= enough) break;
-    Bands by_shape = read_bands(surface, ends, false);
+    Bands by_shape = read_bands(surface, ends, QuadOrder::shape);
     if (by_shape.explained() > bands.explained()) bands = std::move(by_shape);
   }
   const std::size_t before = bands.triangles.size();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace copse {
@@ -56,7 +57,7 @@ class Skew {
 
 // Pairs neighbours along runs of consecutive triangles that share edges: of all ways to pair them the one
 // with the fewest left over, then the least skew.
-void pair_runs(const Surface& s, const Skew& skew, std::span<const std::uint32_t> taken,
+void pair_runs(const Surface& s, const Skew& skew, std::span<const std::uint32_t> taken, double most_skew,
                std::vector<std::uint32_t>& partner) {
   const auto n = static_cast<std::uint32_t>(s.triangles.size());
   // cost[t]: skew of pairing t with t + 1, negative when they cannot be paired.
@@ -66,7 +67,7 @@ void pair_runs(const Surface& s, const Skew& skew, std::span<const std::uint32_t
     for (std::size_t e = 0; e < 3; ++e) {
       if (s.across[t][e] != t + 1) continue;
       const double c = skew(t, e);
-      return c <= k_quad_skew_in_order ? c : -1.0;
+      return c <= most_skew ? c : -1.0;
     }
     return -1.0;
   };
@@ -206,10 +207,14 @@ class Strips {
 }  // namespace
 
 std::vector<std::uint32_t> pair_quads(const Surface& surface, std::span<const std::uint32_t> taken,
-                                      bool in_order) {
+                                      QuadOrder order) {
   std::vector<std::uint32_t> partner(surface.triangles.size(), k_none);
   const Skew skew(surface, taken);
-  if (in_order) pair_runs(surface, skew, taken, partner);
+  if (order != QuadOrder::shape) {
+    const bool any = order == QuadOrder::file_only;
+    pair_runs(surface, skew, taken, any ? std::numeric_limits<double>::infinity() : k_quad_skew_in_order,
+              partner);
+  }
   pair_by_shape(surface, skew, taken, partner);
   return partner;
 }

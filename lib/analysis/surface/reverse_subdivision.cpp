@@ -408,19 +408,10 @@ std::optional<std::array<std::uint32_t, 2>> tips_of(const Triangle& a, const Tri
   return std::array{p, q};
 }
 
-// Quads so skewed that their shape says nothing are known by their triangles' order in the file.
-void pair_leftovers(const Surface& s, std::vector<std::uint32_t>& partner) {
-  for (std::uint32_t t = 0; t + 1 < s.triangles.size(); ++t) {
-    const bool follow = partner[t] == k_none && partner[t + 1] == k_none && s.order[t + 1] == s.order[t] + 1;
-    if (follow && tips_of(s.triangles[t], s.triangles[t + 1])) partner[t] = t + 1, partner[t + 1] = t;
-  }
-}
-
 // The quads of the surface and the quad of each triangle; none where a triangle is in no quad.
 std::vector<Quad> quads_of(const Surface& s, std::vector<std::uint32_t>& quad_of) {
   const std::vector<std::uint32_t> taken(s.triangles.size(), k_none);
-  std::vector<std::uint32_t> partner = pair_quads(s, taken, true);
-  pair_leftovers(s, partner);
+  const std::vector<std::uint32_t> partner = pair_quads(s, taken, QuadOrder::file_only);
   std::vector<Quad> quads;
   quad_of.assign(s.triangles.size(), k_none);
   for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
