@@ -83,5 +83,63 @@ TEST(SpatialOrder, HandlesOnePlaceAndNumbersWithoutADifference) {
   EXPECT_EQ(spatial_order(p, in_order(3)).size(), 3u);
 }
 
+// A band of triangles along the spiral, with normals of its own and no texture coordinates.
+Mesh strip(std::size_t n) {
+  Mesh mesh;
+  mesh.positions = spiral(n);
+  for (std::uint32_t i = 0; i < n; ++i) mesh.normals.push_back({static_cast<float>(i), 0, 0});
+  for (std::uint32_t i = 0; i + 2 < n; ++i) {
+    mesh.triangles.push_back({i, i + 1, i + 2});
+    mesh.normal_triangles.push_back({i, k_none, i + 2});
+    mesh.part_of.push_back(i % 3);
+    mesh.face_of.push_back(i);
+  }
+  mesh.positions.push_back({0, 99, 0});  // which no triangle uses
+  return mesh;
+}
+
+TEST(SpatialOrder, LeavesAMeshAloneThatIsInOrder) {
+  Mesh mesh = strip(2 * k_least_scattered);
+  const Mesh before = mesh;
+  EXPECT_TRUE(order_by_place(mesh).empty());
+  EXPECT_EQ(mesh.triangles, before.triangles);
+  EXPECT_EQ(mesh.positions, before.positions);
+}
+
+TEST(SpatialOrder, BringsAScatteredMeshTogetherAndKeepsEveryCorner) {
+  Mesh mesh = strip(2 * k_least_scattered);
+  const Mesh sorted = mesh;
+  const Ids at = shuffled(mesh.triangles.size());
+  for (std::size_t t = 0; t < at.size(); ++t) {
+    mesh.triangles[t] = sorted.triangles[at[t]];
+    mesh.normal_triangles[t] = sorted.normal_triangles[at[t]];
+    mesh.part_of[t] = sorted.part_of[at[t]];
+    mesh.face_of[t] = sorted.face_of[at[t]];
+  }
+  const Mesh before = mesh;
+  const Ids place = order_by_place(mesh);
+  ASSERT_EQ(place.size(), before.triangles.size());
+  EXPECT_EQ(bounds(mesh).max, bounds(before).max);
+  std::uint32_t first_use = 0;
+  for (std::size_t t = 0; t < place.size(); ++t) {
+    ASSERT_EQ(mesh.part_of[t], before.part_of[place[t]]);
+    ASSERT_EQ(mesh.face_of[t], before.face_of[place[t]]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      ASSERT_EQ(mesh.positions[mesh.triangles[t][c]], before.positions[before.triangles[place[t]][c]]);
+      ASSERT_LE(mesh.triangles[t][c], first_use);
+      if (mesh.triangles[t][c] == first_use) ++first_use;
+      const std::uint32_t n = mesh.normal_triangles[t][c], old = before.normal_triangles[place[t]][c];
+      ASSERT_EQ(n == k_none, old == k_none);
+      if (n == k_none) continue;
+      ASSERT_EQ(mesh.normals[n], before.normals[old]);
+    }
+  }
+  EXPECT_FALSE(is_scattered(mesh.positions, [&] {
+    Ids first;
+    for (const Triangle& t : mesh.triangles) first.push_back(t[0]);
+    return first;
+  }()));
+}
+
 }  // namespace
 }  // namespace copse

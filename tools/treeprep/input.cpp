@@ -1,5 +1,6 @@
 #include "tools/treeprep/input.h"
 
+#include "lib/analysis/surface/spatial_order.h"
 #include "lib/formats/import/import.h"
 
 #include <algorithm>
@@ -150,6 +151,8 @@ Result<Input> read_input(const Options& options, Context& context) {
   orient(input.mesh, options.up, options.scale);
   if (const auto ok = check_size(input.mesh, input.name); !ok) return std::unexpected(ok.error());
   if (options.up == UpAxis::y) warn_if_z_up(input.mesh, input.name, context);
+  if (!options.strict)
+    input.file_order = order_by_place(input.mesh);  // strict messages go by the file's order
   return input;
 }
 

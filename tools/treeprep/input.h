@@ -6,13 +6,17 @@
 #include "tools/common/tool.h"
 #include "tools/treeprep/options.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace copse::treeprep {
 
 struct Input {
-  Mesh mesh;                        // oriented, scaled; at least one triangle
+  Mesh mesh;  // oriented, scaled; at least one triangle
+  // Where each triangle was in the file; empty where they are in its order. Those that lay scattered are
+  // brought together, but with --strict.
+  std::vector<std::uint32_t> file_order;
   std::string name;                 // for messages: the first file, "(+2 more)" where there are several
   std::string format;               // "obj", "glb", ...
   std::vector<std::string> faults;  // with --strict: what the files themselves have wrong

@@ -60,7 +60,8 @@ TrunkMesh weld_stage(const Input& input, const Classification& classes, const Op
   Stage stage = context.stage("weld");
   std::vector<std::uint8_t> is_trunk(input.mesh.triangles.size());
   for (std::size_t t = 0; t < is_trunk.size(); ++t) is_trunk[t] = classes.leaf_of[t] == k_none;
-  TrunkMesh trunk = make_trunk_mesh(input.mesh, is_trunk, weld_tolerance(input, options));
+  TrunkMesh trunk =
+      make_trunk_mesh(input.mesh, is_trunk, weld_tolerance(input, options), input.file_order);
   stage.items(trunk.triangles.size(), "trunk triangles");
   warn_of_lost(input, std::ranges::count(is_trunk, 1), trunk.triangles.size(), options, context);
   return trunk;

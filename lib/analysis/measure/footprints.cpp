@@ -53,31 +53,46 @@ double area_of(const Mesh& mesh, const Triangle& t) {
   return (square > 1e-300 && square < 1e300 ? std::sqrt(square) : length(n)) / 2;
 }
 
+// A triangle's corners, by which its footprint is found.
+struct Key {
+  std::array<Float2, 3> corners{};
+  std::uint64_t hash = 0;
+  double area = 0;
+};
+
 // Finds footprints by their corners: an open-addressed table of indices into the list.
 class Table {
  public:
   explicit Table(std::vector<Footprint>& list) : list_(list), slots_(64, k_none) {}
 
-  Footprint& find_or_add(const std::array<Float2, 3>& corners) {
+  Footprint& find_or_add(const Key& key) {
     if (2 * (list_.size() + 1) > slots_.size()) grow();
-    std::uint32_t& slot = slots_[slot_of(corners)];
+    std::uint32_t& slot = slots_[slot_of(key.corners, key.hash)];
     if (slot == k_none) {
       slot = static_cast<std::uint32_t>(list_.size());
-      list_.push_back({corners, 0});
+      list_.push_back({key.corners, 0});
     }
     return list_[slot];
   }
+  // What find_or_add() will need first, and then.
+  void fetch_slot(const Key& key) const { __builtin_prefetch(&slots_[key.hash & (slots_.size() - 1)]); }
+  void fetch_footprint(const Key& key) const {
+    const std::uint32_t slot = slots_[key.hash & (slots_.size() - 1)];
+    if (slot != k_none) __builtin_prefetch(&list_[slot]);
+  }
 
  private:
-  std::size_t slot_of(const std::array<Float2, 3>& corners) const {
-    std::size_t s = hash_of(corners) & (slots_.size() - 1);
+  std::size_t slot_of(const std::array<Float2, 3>& corners, std::uint64_t hash) const {
+    std::size_t s = hash & (slots_.size() - 1);
     while (slots_[s] != k_none && list_[slots_[s]].corners != corners) s = (s + 1) & (slots_.size() - 1);
     return s;
   }
   // By so much that all growing together costs a third of the adding: every slot is a miss of the caches.
   void grow() {
     slots_.assign(4 * slots_.size(), k_none);
-    for (std::uint32_t i = 0; i < list_.size(); ++i) slots_[slot_of(list_[i].corners)] = i;
+    for (std::uint32_t i = 0; i < list_.size(); ++i) {
+      slots_[slot_of(list_[i].corners, hash_of(list_[i].corners))] = i;
+    }
   }
 
   std::vector<Footprint>& list_;
@@ -87,17 +102,29 @@ class Table {
 }  // namespace
 
 Footprints footprints(const Mesh& mesh, std::span<const std::uint32_t> triangles, double tiles) {
+  // Nearly every look-up misses the caches, so they are asked for a block ahead, first the slot, then the
+  // footprint.
+  constexpr std::size_t k_block = 32;
   Footprints out;
   Table table(out.list);
-  std::array<Float2, 3> corners;
-  for (const std::uint32_t t : triangles) {
-    const double area = area_of(mesh, mesh.triangles[t]);
-    if (read_corners(mesh, t, tiles, corners)) {
-      table.find_or_add(corners).area += area;
-    } else {
-      out.whole_area += area;
-      ++out.whole;
+  std::vector<Key> keys;
+  keys.reserve(k_block);
+  for (std::size_t begin = 0; begin < triangles.size(); begin += k_block) {
+    keys.clear();
+    for (const std::uint32_t t : triangles.subspan(begin, std::min(k_block, triangles.size() - begin))) {
+      Key key;
+      key.area = area_of(mesh, mesh.triangles[t]);
+      if (read_corners(mesh, t, tiles, key.corners)) {
+        key.hash = hash_of(key.corners);
+        table.fetch_slot(key);
+        keys.push_back(key);
+      } else {
+        out.whole_area += key.area;
+        ++out.whole;
+      }
     }
+    for (const Key& key : keys) table.fetch_footprint(key);
+    for (const Key& key : keys) table.find_or_add(key).area += key.area;
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include "lib/analysis/surface/tolerances.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace copse {
 namespace {
@@ -26,6 +27,37 @@ std::uint32_t place(double x, double low, double scale) {
   const double cell = (x - low) * scale;
   if (!(cell > 0)) return 0;
   return static_cast<std::uint32_t>(std::min(cell, static_cast<double>((1u << k_bits) - 1)));
+}
+
+// `elements` (none, or one an entry of `order`) in that order.
+template <class T>
+void permute(std::vector<T>& elements, std::span<const std::uint32_t> order) {
+  if (elements.empty()) return;
+  std::vector<T> out;
+  out.reserve(order.size());
+  for (const std::uint32_t i : order) out.push_back(elements[i]);
+  elements = std::move(out);
+}
+
+// Renumbers what corners name by first use.
+template <class T>
+void number_by_use(std::vector<T>& elements, std::vector<Triangle>& corners) {
+  std::vector<std::uint32_t> number(elements.size(), k_none), order;
+  order.reserve(elements.size());
+  const auto use = [&](std::uint32_t i) {
+    if (number[i] != k_none) return;
+    number[i] = static_cast<std::uint32_t>(order.size());
+    order.push_back(i);
+  };
+  for (Triangle& t : corners) {
+    for (std::uint32_t& i : t) {
+      if (i == k_none) continue;
+      use(i);
+      i = number[i];
+    }
+  }
+  for (std::uint32_t i = 0; i < number.size(); ++i) use(i);
+  permute(elements, order);
 }
 
 }  // namespace
@@ -55,6 +87,26 @@ std::vector<std::uint32_t> spatial_order(std::span<const Double3> positions,
   for (std::size_t c = 0; c + 1 < next.size(); ++c) next[c + 1] += next[c];
   std::vector<std::uint32_t> order(at.size());
   for (std::uint32_t i = 0; i < at.size(); ++i) order[next[cell[i]]++] = i;
+  return order;
+}
+
+std::vector<std::uint32_t> order_by_place(Mesh& mesh) {
+  std::vector<std::uint32_t> order;
+  {
+    std::vector<std::uint32_t> first;
+    first.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) first.push_back(t[0]);
+    if (!is_scattered(mesh.positions, first)) return {};
+    order = spatial_order(mesh.positions, first);
+  }
+  permute(mesh.triangles, order);
+  permute(mesh.normal_triangles, order);
+  permute(mesh.texcoord_triangles, order);
+  permute(mesh.part_of, order);
+  permute(mesh.face_of, order);
+  number_by_use(mesh.positions, mesh.triangles);
+  number_by_use(mesh.normals, mesh.normal_triangles);
+  number_by_use(mesh.texcoords, mesh.texcoord_triangles);
   return order;
 }
 

@@ -4,7 +4,7 @@
 // every pass over the surface then waits for memory: three times as long as over the same surface in order.
 #pragma once
 
-#include "lib/formats/vec.h"
+#include "lib/formats/mesh.h"
 
 #include <cstdint>
 #include <span>
@@ -21,5 +21,10 @@ bool is_scattered(std::span<const Double3> positions, std::span<const std::uint3
 // follow Morton's curve (1966), and within one the order is kept. O(n).
 std::vector<std::uint32_t> spatial_order(std::span<const Double3> positions,
                                          std::span<const std::uint32_t> at);
+
+// Puts the triangles of a mesh in which they lie scattered into spatial order, by their first corners, and
+// its positions, normals and texture coordinates into that of their first use (what nothing uses comes last).
+// The answer: where each triangle was before; empty where nothing had to be moved. O(n).
+std::vector<std::uint32_t> order_by_place(Mesh& mesh);
 
 }  // namespace copse

@@ -210,7 +210,9 @@ Surface make_surface(const TrunkMesh& whole, std::span<const std::uint32_t> tria
     if (first[i] == i) {
       s.triangle_of[i] = static_cast<std::uint32_t>(s.triangles.size());
       s.triangles.push_back(all[i]);
-      s.order.push_back(whole.source.empty() ? i : whole.source[triangles[i]]);
+      s.order.push_back(!whole.file_order.empty() ? whole.file_order[triangles[i]]
+                        : whole.source.empty()    ? i
+                                                  : whole.source[triangles[i]]);
       piece.push_back(whole.piece.empty() ? 0 : whole.piece[triangles[i]]);
     } else {
       s.triangle_of[i] = s.triangle_of[first[i]];

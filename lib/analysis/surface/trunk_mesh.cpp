@@ -2,7 +2,6 @@
 
 #include "lib/analysis/surface/components.h"
 #include "lib/analysis/surface/sew.h"
-#include "lib/analysis/surface/spatial_order.h"
 #include "lib/analysis/surface/weld.h"
 
 #include <cmath>
@@ -10,50 +9,27 @@
 namespace copse {
 namespace {
 
-// The positions that the trunk uses and its triangles over them: in the order of the file, or, where that is
-// none, by place and the positions by their first use.
+// The mesh vertices that the trunk uses, ascending, and the trunk's triangles over them.
 struct UsedVertices {
+  std::vector<std::uint32_t> vertex;
   std::vector<Double3> positions;
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> source;
 };
 
-// The trunk's triangles; whether they had to be put in order.
-bool list_triangles(const Mesh& mesh, std::span<const std::uint8_t> is_trunk,
-                    std::vector<std::uint32_t>& source) {
-  std::vector<std::uint32_t> corner;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!is_trunk[t]) continue;
-    source.push_back(t);
-    corner.push_back(mesh.triangles[t][0]);
-  }
-  if (!is_scattered(mesh.positions, corner)) return false;
-  std::vector<std::uint32_t> order = spatial_order(mesh.positions, corner);
-  for (std::uint32_t& t : order) t = source[t];
-  source = std::move(order);
-  return true;
-}
-
 UsedVertices used_by_trunk(const Mesh& mesh, std::span<const std::uint8_t> is_trunk) {
   UsedVertices used;
-  const bool by_use = list_triangles(mesh, is_trunk, used.source);
-  constexpr std::uint32_t k_used = k_none - 1;
   std::vector<std::uint32_t> number(mesh.positions.size(), k_none);
-  const auto add = [&](std::uint32_t v) {
-    number[v] = static_cast<std::uint32_t>(used.positions.size());
-    used.positions.push_back(mesh.positions[v]);
-  };
-  for (const std::uint32_t t : used.source) {
-    for (const std::uint32_t v : mesh.triangles[t]) {
-      if (number[v] != k_none) continue;
-      if (by_use)
-        add(v);
-      else
-        number[v] = k_used;
-    }
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!is_trunk[t]) continue;
+    for (const std::uint32_t v : mesh.triangles[t]) number[v] = 0;
+    used.source.push_back(t);
   }
   for (std::uint32_t v = 0; v < number.size(); ++v) {
-    if (number[v] == k_used) add(v);
+    if (number[v] == k_none) continue;
+    number[v] = static_cast<std::uint32_t>(used.vertex.size());
+    used.vertex.push_back(v);
+    used.positions.push_back(mesh.positions[v]);
   }
   used.triangles.reserve(used.source.size());
   for (const std::uint32_t t : used.source) {
@@ -130,7 +106,8 @@ bool is_degenerate(const Triangle& t) {
 
 }  // namespace
 
-TrunkMesh make_trunk_mesh(const Mesh& mesh, std::span<const std::uint8_t> is_trunk, double tolerance) {
+TrunkMesh make_trunk_mesh(const Mesh& mesh, std::span<const std::uint8_t> is_trunk, double tolerance,
+                          std::span<const std::uint32_t> file_order) {
   UsedVertices used = used_by_trunk(mesh, is_trunk);
   const std::vector<std::uint32_t> representative =
       tolerance < 0 ? weld_open(used.positions, used.triangles) : weld(used.positions, tolerance);
@@ -147,6 +124,7 @@ TrunkMesh make_trunk_mesh(const Mesh& mesh, std::span<const std::uint8_t> is_tru
     welded.push_back(w);
     kept_piece.push_back(pieces.of[t]);
     trunk.source.push_back(used.source[t]);
+    if (!file_order.empty()) trunk.file_order.push_back(file_order[used.source[t]]);
   }
   const std::vector<std::uint32_t> surface_of_piece = sew(welded, kept_piece);
   std::vector<std::uint32_t> surface(used.positions.size(), k_none);
