@@ -215,8 +215,8 @@ TEST_F(Treedump, ATextureInTheFileIsToldWithItsSize) {
   const std::string file = save("oak.stree", tree);
   EXPECT_NE(dump({file}).out.find("embedded image/png, 1.2"), std::string::npos) << dump({file}).out;
   bool found = false;
-  for (const json& texture : json::parse(dump({file, "--json"}).out)["textures"])
-    found |= texture["embedded_bytes"] == 1234;
+  const json all = json::parse(dump({file, "--json"}).out);
+  for (const json& texture : all["textures"]) found |= texture["embedded_bytes"] == 1234;
   EXPECT_TRUE(found);
 }
 

@@ -57,12 +57,16 @@ Table skeleton_table(const Findings& f) {
   return table;
 }
 
-Table components_table(const Mesh& mesh, const Classification& classes) {
+Table components_table(const Mesh& mesh, std::span<const std::uint32_t> file_order,
+                       const Classification& classes) {
   struct Sum {
     std::uint64_t components = 0, triangles = 0, first = 0;
   };
   std::vector<std::uint64_t> first(classes.components.size(), mesh.triangles.size());
-  for (std::size_t t = classes.component_of.size(); t-- > 0;) first[classes.component_of[t]] = t;
+  for (std::size_t t = 0; t < classes.component_of.size(); ++t) {
+    std::uint64_t& lowest = first[classes.component_of[t]];
+    lowest = std::min<std::uint64_t>(lowest, file_order.empty() ? t : file_order[t]);
+  }
   std::map<std::tuple<PartClass, std::string_view, std::string_view>, Sum> sums;
   for (std::size_t i = 0; i < classes.components.size(); ++i) {
     const Component& c = classes.components[i];
@@ -70,7 +74,7 @@ Table components_table(const Mesh& mesh, const Classification& classes) {
     const std::string_view name = material == k_none ? std::string_view() : mesh.materials[material].name;
     const auto [at, is_new] = sums.try_emplace({c.kind, c.reason, name});
     Sum& sum = at->second;
-    if (is_new) sum.first = first[i];
+    sum.first = is_new ? first[i] : std::min(sum.first, first[i]);
     ++sum.components, sum.triangles += c.triangles;
   }
   Table table{"trunk and leaves, and why",
@@ -94,7 +98,7 @@ ErrorRecord record(const char* name, const ErrorDistribution& d, const char* uni
 void report_findings(const Findings& findings, Report& report) {
   report.tables.push_back(counts_table(findings));
   if (!findings.hierarchy.radii.empty()) report.tables.push_back(skeleton_table(findings));
-  report.tables.push_back(components_table(findings.mesh, findings.classes));
+  report.tables.push_back(components_table(findings.mesh, findings.file_order, findings.classes));
   if (findings.hierarchy.notes.empty()) return;
   Table notes{"about the skeleton", {"note"}, {}};
   for (const std::string& note : findings.hierarchy.notes) notes.rows.push_back({note});

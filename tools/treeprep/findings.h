@@ -9,10 +9,14 @@
 #include "lib/formats/report.h"
 #include "lib/formats/tree.h"
 
+#include <span>
+#include <vector>
+
 namespace copse::treeprep {
 
 struct Findings {
   const Mesh& mesh;
+  std::span<const std::uint32_t> file_order;  // Input::file_order
   const Classification& classes;
   const TrunkMesh& trunk;
   const Hierarchy& hierarchy;

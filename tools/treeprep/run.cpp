@@ -60,8 +60,7 @@ TrunkMesh weld_stage(const Input& input, const Classification& classes, const Op
   Stage stage = context.stage("weld");
   std::vector<std::uint8_t> is_trunk(input.mesh.triangles.size());
   for (std::size_t t = 0; t < is_trunk.size(); ++t) is_trunk[t] = classes.leaf_of[t] == k_none;
-  TrunkMesh trunk =
-      make_trunk_mesh(input.mesh, is_trunk, weld_tolerance(input, options), input.file_order);
+  TrunkMesh trunk = make_trunk_mesh(input.mesh, is_trunk, weld_tolerance(input, options), input.file_order);
   stage.items(trunk.triangles.size(), "trunk triangles");
   warn_of_lost(input, std::ranges::count(is_trunk, 1), trunk.triangles.size(), options, context);
   return trunk;
@@ -112,7 +111,9 @@ Result<Analysis> analyse(Input& input, const Options& options, TreeKind kind, co
 Result<void> report_stage(const Input& input, const Analysis& a, const LeftOut& left_out, Context& context) {
   Report& report = context.report();
   if (context.options().report.empty() && context.options().html.empty()) return {};
-  report_findings({input.mesh, a.classes, a.trunk, a.hierarchy, a.assembled.tree, a.leaves.merged}, report);
+  report_findings(
+      {input.mesh, input.file_order, a.classes, a.trunk, a.hierarchy, a.assembled.tree, a.leaves.merged},
+      report);
   if (!left_out.sections.empty()) {
     const auto reduced = leave_out(a.assembled.tree, left_out.sections);
     if (!reduced) return std::unexpected(reduced.error());
