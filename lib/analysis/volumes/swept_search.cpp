@@ -17,6 +17,7 @@ constexpr int k_rough_rounds = 2;
 // Starts that are descended from. A small hull has few, deep valleys, and is quick.
 constexpr std::size_t k_small_hull = 60;
 constexpr std::size_t k_kept_small = 20, k_kept = 12, k_lozenge_kept_small = 32, k_lozenge_kept = 16;
+constexpr double k_same_end = 1e-7;            // costs of descents that came to one end
 constexpr double k_alike = 0.985;              // of frames a sixth of a radian apart
 constexpr double k_same_valley = 0.95;         // a third of a radian
 constexpr std::size_t k_most_looked_at = 128;  // points, for the choice of the starts
@@ -212,9 +213,8 @@ std::vector<SweptFit> promising_starts(Swept kind, std::span<const Double3> poin
   const std::size_t wanted = kind == Swept::lozenge ? (small ? k_lozenge_kept_small : k_lozenge_kept)
                                                     : (small ? k_kept_small : k_kept);
   std::vector<Start> all;
-  const std::vector<Double3> some = looked_at(points, base);
   std::vector<Double3> local;
-  for (const Axes& f : many_frames(kind, points, base)) all.push_back(start_in_frame(kind, some, f, local));
+  for (const Axes& f : many_frames(kind, points, base)) all.push_back(start_in_frame(kind, points, f, local));
   std::stable_sort(all.begin(), all.end(), [](const Start& a, const Start& b) { return a.cost < b.cost; });
   std::vector<SweptFit> kept;
   const auto keep = [&](const SweptFit& f) {
@@ -298,26 +298,40 @@ std::vector<SweptFit> regular_starts(std::span<const Double3> points, const Prin
 
 SweptFit search_around(Swept kind, std::span<const Double3> points, const Deadline& deadline) {
   const PrincipalAxes spread = principal_axes(points);
+  // What a scout finds round some of many points is no larger than what there is round all.
+  const std::vector<Double3> some = looked_at(points, spread.axes);
+  const bool all = some.size() == points.size();
   std::vector<SweptDescent> scouts;
   double least = std::numeric_limits<double>::infinity();
   const auto scout = [&](const std::vector<SweptFit>& starts, double gap, double room) {
     for (const SweptFit& start : starts) {
       if (!scouts.empty() && deadline.has_passed()) return;
-      scouts.emplace_back(kind, points, start, room);
+      scouts.emplace_back(kind, some, start, room);
       scouts.back().run({k_rough_gap, k_rough_rounds, gap, least});
       least = std::min(least, scouts.back().cost());
     }
   };
-  scout(promising_starts(kind, points, spread.axes), k_narrow, k_room);
+  scout(promising_starts(kind, some, spread.axes), k_narrow, k_room);
   if (kind == Swept::lozenge && points.size() < k_small_hull && !deadline.has_passed())
-    scout(regular_starts(points, spread), k_narrowest, k_least_room);
+    scout(regular_starts(some, spread), k_narrowest, k_least_room);
   std::stable_sort(scouts.begin(), scouts.end(),
                    [](const SweptDescent& a, const SweptDescent& b) { return a.cost() < b.cost(); });
   SweptFit best = scouts.front().fit();
+  best.rectangle.r = reach_of(points, best);
+  least = std::min(all ? least : std::numeric_limits<double>::infinity(), cost_of(kind, best));
+  std::vector<double> ends;  // round some
   for (SweptDescent& descent : scouts) {
     if (deadline.has_passed()) return best;
     if (descent.least_cost() > least) continue;
     descent.run({.hopeless = least});
+    if (!all) {
+      const double end = descent.cost();
+      const auto same = [&](double other) { return std::abs(end - other) <= k_same_end * other; };
+      if (descent.least_cost() > least || std::any_of(ends.begin(), ends.end(), same)) continue;
+      ends.push_back(end);
+      descent = SweptDescent(kind, points, descent.fit(), k_least_room);
+      descent.run({.first_gap = k_narrowest, .hopeless = least});
+    }
     if (descent.cost() < least) least = descent.cost(), best = descent.fit();
   }
   if (deadline.has_passed()) return best;
