@@ -95,7 +95,7 @@ def player(folder, count):
     (folder / "path.json").write_text(json.dumps({"schema": "copse.path/1", "fov": 50, "keys": keys}))
     print(f"\ntreeplay on {count} trees of 8 species\n\nculling along a path of 4 frames, the mean of a frame")
     print(f"{'--cull':>10s} {'nodes':>8s} {'blocks':>8s} {'planes':>8s} {'seen':>8s} {'tested':>9s} {'drawn':>9s} {'ms':>8s}")
-    for by in ("flat", "hierarchy", "kd", "r"):
+    for by in ("flat", "hierarchy", "coherent", "kd", "r"):
         report, _ = play(folder, "--cull", by, "--path", f"{folder}/path.json", "--count", "4", "--size", "32x18", "--samples", "1", "--unlit")
         cells = table(report, "culling, the mean of a frame")[0]
         print(f"{by:>10s} " + " ".join(f"{c:>{w}s}" for c, w in zip(cells, (8, 8, 8, 8, 9, 9, 8))), flush=True)

@@ -21,8 +21,16 @@ struct CullCounts {
   std::uint64_t plane_tests = 0;    // of both
 };
 
-// none: nothing is tested, every block counts as seen; flat: every block is tested.
-enum class BlockHierarchy : std::uint8_t { none, flat, boxes, kd_tree, rtree };
+// none: nothing is tested, every block counts as seen; flat: every block is tested; coherent: the box
+// hierarchy, with what is known of the frame before and of the node above.
+enum class BlockHierarchy : std::uint8_t { none, flat, boxes, kd_tree, rtree, coherent };
+
+// Of one camera, from frame to frame: the plane that each node and block was outside of when it was last
+// looked at; k_no_plane: of none.
+struct CullMemory {
+  static constexpr std::uint8_t k_no_plane = 6;
+  std::vector<std::uint8_t> nodes, blocks;
+};
 
 // Whether the file has it. Of an ecosystem without blocks every hierarchy is empty, and there.
 bool has_hierarchy(const Ecosystem& eco, BlockHierarchy by);
@@ -35,9 +43,12 @@ struct SeenBlock {
 
 // In the order of the file, by a kd-tree or R-tree in the order of that. Left out are blocks without a box,
 // those outside a plane, and those whose type has a view range that ends before their box begins.
-// Precondition: has_hierarchy.
+// Precondition: has_hierarchy. `memory`: of `coherent`, which tries that plane first (plane coherence:
+// Assarsson and Moeller, 2000; digest 004, section 2.7), and below a node none of the planes that it lies
+// inside of. What is seen does not depend on it.
 void visible_blocks(const Ecosystem& eco, BlockHierarchy by, const Frustum& frustum, const Double3& eye,
-                    std::vector<SeenBlock>& visible, CullCounts* counts = nullptr);
+                    std::vector<SeenBlock>& visible, CullCounts* counts = nullptr,
+                    CullMemory* memory = nullptr);
 
 // The distance from a point to a box; 0 inside.
 double distance_to(const Double3& point, const DoubleBox& box);

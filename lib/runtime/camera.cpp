@@ -46,6 +46,13 @@ Frustum frustum_of(const View& view) {
           side(-f.up, view.tan_half_y),   Plane{-f.back, -view.near_plane}, Plane{f.back, view.far_plane}};
 }
 
+Visibility classify(const Plane& p, const Double3& centre, const Double3& half) {
+  const double reach =
+      std::abs(p.normal.x) * half.x + std::abs(p.normal.y) * half.y + std::abs(p.normal.z) * half.z;
+  const double d = dot(p.normal, centre) + p.offset;
+  return d < -reach ? Visibility::outside : d < reach ? Visibility::crossing : Visibility::inside;
+}
+
 Visibility classify(const Frustum& frustum, const Double3& eye, const DoubleBox& box,
                     std::uint64_t* plane_tests) {
   if (box.empty()) return Visibility::outside;
@@ -54,11 +61,9 @@ Visibility classify(const Frustum& frustum, const Double3& eye, const DoubleBox&
   Visibility answer = Visibility::inside;
   for (const Plane& p : frustum) {
     if (plane_tests) ++*plane_tests;
-    const double reach =
-        std::abs(p.normal.x) * half.x + std::abs(p.normal.y) * half.y + std::abs(p.normal.z) * half.z;
-    const double d = dot(p.normal, centre) + p.offset;
-    if (d < -reach) return Visibility::outside;
-    if (d < reach) answer = Visibility::crossing;
+    const Visibility seen = classify(p, centre, half);
+    if (seen == Visibility::outside) return seen;
+    if (seen == Visibility::crossing) answer = seen;
   }
   return answer;
 }

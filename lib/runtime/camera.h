@@ -63,6 +63,9 @@ enum class Visibility { outside, crossing, inside };
 Visibility classify(const Frustum& frustum, const Double3& eye, const DoubleBox& box,
                     std::uint64_t* plane_tests = nullptr);
 
+// The same of one plane; of the box its middle, relative to the eye, and half its sides.
+Visibility classify(const Plane& plane, const Double3& centre, const Double3& half);
+
 // The nearest camera that looks along -`back` (from `back` towards the points) with the given field of view
 // and sees every point: exact, not by a bounding sphere. `margin` widens the picture on each side: 0.05
 // leaves 5 % of its half-width and half-height free. Points are relative to `origin`. None: no finite point.

@@ -12,7 +12,7 @@ namespace copse {
 namespace {
 
 constexpr BlockHierarchy k_all[] = {BlockHierarchy::flat, BlockHierarchy::boxes, BlockHierarchy::kd_tree,
-                                    BlockHierarchy::rtree};
+                                    BlockHierarchy::rtree, BlockHierarchy::coherent};
 
 Ecosystem with_trees(bool exact) {
   Ecosystem eco = little_ecosystem(exact);
@@ -55,9 +55,38 @@ TEST(BlockCulling, EveryHierarchySeesWhatTestingEveryBlockSees) {
   EXPECT_GT(some, 150u);
 }
 
+// A camera that turns and walks a little from frame to frame, and jumps now and then.
+TEST(BlockCulling, WhatIsKnownOfTheFrameBeforeSavesTestsAndChangesNothing) {
+  const Ecosystem eco = with_trees(false);
+  Random random(2);
+  CullMemory memory;
+  std::uint64_t with = 0, without = 0, some = 0;
+  Double3 eye, target;
+  for (int i = 0; i < 2000; ++i) {
+    if (i % 100 == 0) {
+      eye = {random.uniform(-10, 30), random.uniform(0, 10), random.uniform(-10, 30)};
+      target = {random.uniform(-10, 30), random.uniform(0, 10), random.uniform(-10, 30)};
+    }
+    eye += {random.uniform(-0.1, 0.1), 0, random.uniform(-0.1, 0.1)};
+    target += {random.uniform(-0.3, 0.3), 0, random.uniform(-0.3, 0.3)};
+    const Frustum frustum = frustum_of(make_view({.eye = eye, .target = target, .fov = 0.4}, 1.5, 0.1, 1000));
+    std::vector<SeenBlock> expected, got;
+    CullCounts plain, coherent;
+    visible_blocks(eco, BlockHierarchy::boxes, frustum, eye, expected, &plain);
+    visible_blocks(eco, BlockHierarchy::coherent, frustum, eye, got, &coherent, &memory);
+    ASSERT_EQ(got, expected) << i;
+    ASSERT_EQ(coherent.nodes_visited, plain.nodes_visited);
+    with += coherent.plane_tests, without += plain.plane_tests;
+    some += !expected.empty() && expected.size() < eco.blocks.size();
+  }
+  EXPECT_GT(some, 300u);
+  EXPECT_LT(with, 0.7 * static_cast<double>(without));
+}
+
 TEST(BlockCulling, BelowANodeThatIsInsideNothingIsTested) {
   const Ecosystem eco = with_trees(false);
-  for (const BlockHierarchy by : {BlockHierarchy::boxes, BlockHierarchy::kd_tree, BlockHierarchy::rtree}) {
+  for (const BlockHierarchy by :
+       {BlockHierarchy::boxes, BlockHierarchy::coherent, BlockHierarchy::kd_tree, BlockHierarchy::rtree}) {
     CullCounts counts;
     const auto blocks = seen(eco, k_above, by, &counts);
     EXPECT_EQ(blocks.size(), 8u);

@@ -171,7 +171,7 @@ class TreeplayLargeForest : public TreeplayForest {
 TEST_F(TreeplayLargeForest, EveryWayOfCullingDrawsTheSame) {
   std::vector<double> drawn;
   std::string picture;
-  for (const char* by : {"flat", "hierarchy", "kd", "r"}) {
+  for (const char* by : {"flat", "hierarchy", "coherent", "kd", "r"}) {
     const Outcome o = play(with({"--unlit", "--cull", by, "--report", file("r.json")}));
     ASSERT_EQ(o.status, 0) << o.err;
     drawn.push_back(stat(10));

@@ -139,7 +139,7 @@ void ForestPlanner::sort_by_distance(const Double3& eye) {
 void ForestPlanner::see(const View& view, const ForestWish& wish, ForestFrame& frame, ForestCounts& counts) {
   const Frustum frustum = frustum_of(view);
   const auto start = std::chrono::steady_clock::now();
-  visible_blocks(eco_, by_, frustum, view.eye, seen_, &counts.culling);
+  visible_blocks(eco_, by_, frustum, view.eye, seen_, &counts.culling, &memory_);
   counts.cull_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   counts.blocks_seen = seen_.size();
   sort_by_distance(view.eye);

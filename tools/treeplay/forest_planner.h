@@ -95,6 +95,7 @@ class ForestPlanner {
   std::map<Key, std::uint32_t> first_group_;
   std::vector<std::array<LevelLadder, 2>> ladders_;  // of every type in other materials, in its own
   std::vector<SeenBlock> seen_;
+  CullMemory memory_;   // of the camera
   double nearest_ = 0;  // of the blocks that the camera saw last, metres from the eye
 };
 

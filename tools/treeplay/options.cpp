@@ -144,15 +144,18 @@ void add_options(CLI::App& app, Options& options) {
                    "the heights of --camera count from the terrain of an .eco, not from 0");
 
   CLI::Option_group* forest = app.add_option_group("Ecosystems");
-  add_choice<BlockHierarchy>(*forest, "--cull", options.cull,
-                             "how what is not seen is found: not at all, block by block, by the box "
-                             "hierarchy, by the kd-tree or the R-tree of the file (\"block_trees\")",
-                             {{"none", BlockHierarchy::none},
-                              {"flat", BlockHierarchy::flat},
-                              {"hierarchy", BlockHierarchy::boxes},
-                              {"kd", BlockHierarchy::kd_tree},
-                              {"r", BlockHierarchy::rtree}})
-      ->type_name("none|flat|hierarchy|kd|r");
+  add_choice<BlockHierarchy>(
+      *forest, "--cull", options.cull,
+      "how what is not seen is found: not at all, block by block, by the box "
+      "hierarchy, by that and what the frame before tells of it (coherent), by the kd-tree or the "
+      "R-tree of the file (\"block_trees\")",
+      {{"none", BlockHierarchy::none},
+       {"flat", BlockHierarchy::flat},
+       {"hierarchy", BlockHierarchy::boxes},
+       {"coherent", BlockHierarchy::coherent},
+       {"kd", BlockHierarchy::kd_tree},
+       {"r", BlockHierarchy::rtree}})
+      ->type_name("none|flat|hierarchy|coherent|kd|r");
 
   forest
       ->add_option("--fade", options.fade,
