@@ -98,7 +98,8 @@ class Coder {
 
   std::string code_forest() {
     const std::uint32_t count = c_.plain(32, static_cast<std::uint32_t>(f_.nodes.size()));
-    if (count == 0 || count > part_.triangles.size() + std::size_t{1} + c_.left() * 8)
+    // Each triangle goes once or twice, and no merge makes more than it takes.
+    if (count == 0 || count > 4 * part_.triangles.size() + std::size_t{1} + c_.left() * 8)
       return "it counts more leaves than it can hold";
     if (c_.decoding()) f_.nodes.resize(1), f_.sources.reserve(part_.triangles.size());
     used_.assign(part_.triangles.size(), 0);

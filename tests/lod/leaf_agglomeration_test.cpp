@@ -62,8 +62,9 @@ TEST(LeafAgglomeration, WhatIsHiddenGoesFirst) {
     const SpectrumElement& element = s.elements[e];
     if (element.birth != 0) continue;
     const Double3 at = to_double(s.vertices[s.triangles[s.first_triangle[e]][0]].position);
-    if (element.death <= s.steps() / 8) early += length(at), ++first;
-    if (element.death > s.steps() / 2) late += length(at), ++last;
+    const std::uint32_t left = element.death == k_none ? 0 : s.counts[element.death];
+    if (left >= 7 * s.counts[0] / 8) early += length(at), ++first;
+    if (left < s.counts[0] / 2) late += length(at), ++last;
   }
   ASSERT_GT(first, 50u);
   ASSERT_GT(last, 50u);

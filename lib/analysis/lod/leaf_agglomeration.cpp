@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace copse {
 namespace {
@@ -46,28 +47,51 @@ struct Offer {
   }
 };
 
+CrownField field_of(const LeafPieces& pieces) {
+  std::vector<FoliageTriangle> triangles(pieces.part.triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (int c = 0; c < 3; ++c)
+      triangles[t].corners[c] = to_double(pieces.part.vertices[pieces.part.triangles[t][c]].position);
+    triangles[t].opacity = pieces.opacity_of(t);
+  }
+  return {triangles, std::clamp(static_cast<int>(std::cbrt(double(triangles.size()))), 8, 64)};
+}
+
+const AlphaMask* mask_of(const Looks& looks, std::uint32_t m) {
+  return m < looks.masks.size() && !looks.masks[m].opaque.empty() ? &looks.masks[m] : nullptr;
+}
+
 class Agglomeration {
  public:
-  Agglomeration(const Tree& tree, const Looks& looks, const LeafPieces& pieces, std::size_t full)
-      : pieces_(pieces),
-        looks_(looks),
-        full_(double(std::max<std::size_t>(1, full))),
-        field_(field_of(pieces)),
-        ancestors_(tree),
-        elements_(pieces) {
+  Agglomeration(const LeafPieces& pieces, const CrownField& field, const RadiusAncestors& ancestors,
+                LeafElements& elements)
+      : pieces_(pieces), field_(field), ancestors_(ancestors), elements_(elements) {
     largest_ = k_largest * field_.cross_section();
     const double width = field_.width();
     per_width_ = width > 0 ? static_cast<float>(1 / (width * width)) : 0;
+    gather();
   }
 
-  Spectrum run() {
-    gather();
-    leave_hidden();
-    while (alive_.size() > 1) {
-      round();
-      if (elements_.held() && (triangles_ <= shown_ || alive_.size() == 1)) elements_.show(curtain_);
-    }
-    return elements_.finish();
+  // Leaves that no one misses leave first.
+  void run(const Looks& looks, std::size_t full) {
+    leave_hidden(looks, double(full));
+    while (alive_.size() > 1) round();
+  }
+
+  QuickMerges run_until(double triangles) {
+    host_.resize(nodes_.size());
+    std::iota(host_.begin(), host_.end(), 0u);
+    while (alive_.size() > 1 && triangles_ > triangles) round();
+    QuickMerges out;
+    for (const Leaf& l : alive_)
+      out.leaves.push_back(
+          {l.node, nodes_[l.node].radius, l.group, nodes_[l.node].displacement,
+           nodes_[l.node].drawn == k_none ? elements_.drawn(l.node) : made_[nodes_[l.node].drawn]});
+    // A host may have gone to another later: hosts of hosts, until one that is left.
+    for (std::uint32_t& h : host_)
+      while (host_[h] != h) h = host_[h];
+    out.host = std::move(host_);
+    return out;
   }
 
  private:
@@ -77,16 +101,6 @@ class Agglomeration {
     std::uint32_t drawn = k_none;  // in made_, once it has grown
     double area = 0;
   };
-
-  static CrownField field_of(const LeafPieces& pieces) {
-    std::vector<FoliageTriangle> triangles(pieces.part.triangles.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      for (int c = 0; c < 3; ++c)
-        triangles[t].corners[c] = to_double(pieces.part.vertices[pieces.part.triangles[t][c]].position);
-      triangles[t].opacity = pieces.opacity_of(t);
-    }
-    return {triangles, std::clamp(static_cast<int>(std::cbrt(double(triangles.size()))), 8, 64)};
-  }
 
   void gather() {
     std::vector<Leaf> leaves(elements_.size());
@@ -109,14 +123,13 @@ class Agglomeration {
       nodes_[n].radius = piece.radius, nodes_[n].area = area;
       place(leaves[n], centres[n], area, field_.at(centres[n]).openness, field_.exposure(centres[n]));
     }
-    curtain_ = curve_order(centres);
-    for (const std::uint32_t n : curtain_) alive_.push_back(leaves[n]);
+    for (const std::uint32_t n : curve_order(centres)) alive_.push_back(leaves[n]);
     triangles_ = double(pieces_.triangles.size());
   }
 
   // What no one misses leaves, and comes back, merged, when fewer leaves are needed than that would take.
-  void leave_hidden() {
-    const double least = Occlusion::k_least * full_;
+  void leave_hidden(const Looks& looks, double full) {
+    const double least = Occlusion::k_least * full;
     if (alive_.size() < 2 || triangles_ <= least) return;
     std::vector<DrawnLeaf::Face> faces;
     DoubleBox box;
@@ -130,7 +143,7 @@ class Agglomeration {
       const auto source = elements_.source(l.node);
       leaves.push_back({pieces_.part.vertices,
                         std::span(faces).subspan(source.data() - pieces_.triangles.data(), source.size()),
-                        mask_of(pieces_.list[elements_.piece(l.node)].material)});
+                        mask_of(looks, pieces_.list[elements_.piece(l.node)].material)});
       prior.push_back(mean > 0 ? k_doubt * (l.sole + k_other * l.seen) / mean : 0);
     }
     const Occlusion o = leaves_by_occlusion(leaves, box.centre(), 0.55 * length(box.extent()), box,
@@ -141,18 +154,20 @@ class Agglomeration {
                                              .least = 1 + std::size_t(least),
                                              .prior = prior});
     if (o.gone.empty()) return;
-    shown_ = triangles_;
-    for (const Occlusion::Gone& g : o.gone) {
-      const Leaf& leaf = alive_[g.leaf];
-      elements_.remove(leaf.node, g.alone < k_hidden ? 0 : 0.5 * std::sqrt(double(leaf.area)));
-      shown_ -= double(elements_.source(leaf.node).size());
+    double shown = triangles_;
+    std::vector<std::uint32_t> order;
+    for (const Leaf& l : alive_) order.push_back(l.node);
+    double error = 0;
+    std::vector<std::uint32_t> together;
+    for (std::size_t i = 0; i < o.gone.size(); ++i) {
+      const Leaf& leaf = alive_[o.gone[i].leaf];
+      if (o.gone[i].alone >= k_hidden) error = std::max(error, 0.5 * std::sqrt(double(leaf.area)));
+      shown -= double(elements_.source(leaf.node).size()), together.push_back(leaf.node);
+      if (i + 1 < o.gone.size() && o.step(i + 1) == o.step(i)) continue;
+      std::sort(together.begin(), together.end());
+      elements_.remove(together, error), together.clear();
     }
-    shown_ *= Occlusion::k_shown;
-    elements_.hold();
-  }
-
-  const AlphaMask* mask_of(std::uint32_t m) const {
-    return m < looks_.masks.size() && !looks_.masks[m].opaque.empty() ? &looks_.masks[m] : nullptr;
+    elements_.hold(order, shown * Occlusion::k_shown);
   }
 
   static void place(Leaf& leaf, const Double3& centre, double area, double open, double seen) {
@@ -173,6 +188,7 @@ class Agglomeration {
     // Nothing fits: the cheapest are cut to what does.
     for (std::size_t i = 0; merged == 0 && i < (offers_.size() + 15) / 16; ++i) merge(offers_[i], true);
     std::erase_if(alive_, [](const Leaf& l) { return l.node == k_none; });
+    elements_.show_at(alive_.size() == 1 ? 0 : triangles_);
   }
 
   // Every leaf's best host.
@@ -230,6 +246,7 @@ class Agglomeration {
     if (h.drawn == k_none) h.drawn = static_cast<std::uint32_t>(made_.size()), made_.emplace_back();
     made_[h.drawn] = leaf, h.area = leaf.area();
     see(host, leaf, h.area, distance(before, centre));
+    if (!host_.empty()) host_[guest.node] = host.node;
     guest.node = k_none, ++taken_[o.host];
     return 1;
   }
@@ -328,13 +345,11 @@ class Agglomeration {
   }
 
   const LeafPieces& pieces_;
-  Looks looks_;
-  double full_, triangles_ = 0;         // at full detail, now
-  double shown_ = 0;                    // triangles at which merged leaves replace those that only lost some
-  std::vector<std::uint32_t> curtain_;  // the nodes in the order in which they do
-  CrownField field_;
-  RadiusAncestors ancestors_;
-  LeafElements elements_;
+  const CrownField& field_;
+  const RadiusAncestors& ancestors_;
+  LeafElements& elements_;
+  double triangles_ = 0;             // now
+  std::vector<std::uint32_t> host_;  // of each node, if anyone asks: who took it in
   double largest_ = 0;
   float per_width_ = 0;
   std::vector<Leaf> alive_;  // in the order of the curve
@@ -346,9 +361,18 @@ class Agglomeration {
 
 }  // namespace
 
+QuickMerges merge_quickly(const LeafPieces& pieces, const CrownField& field, const RadiusAncestors& ancestors,
+                          LeafElements& elements, std::size_t triangles) {
+  return Agglomeration(pieces, field, ancestors, elements).run_until(double(triangles));
+}
+
 Spectrum agglomerate_leaves(const Tree& tree, const Looks& looks, const LeafPieces& pieces,
                             std::size_t full) {
-  return Agglomeration(tree, looks, pieces, full).run();
+  const CrownField field = field_of(pieces);
+  const RadiusAncestors ancestors(tree);
+  LeafElements elements(pieces);
+  Agglomeration(pieces, field, ancestors, elements).run(looks, full);
+  return elements.finish();
 }
 
 }  // namespace copse

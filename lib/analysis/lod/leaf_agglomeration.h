@@ -7,12 +7,31 @@
 // takes in.
 #pragma once
 
+#include "lib/analysis/lod/crown_field.h"
+#include "lib/analysis/lod/leaf_elements.h"
 #include "lib/analysis/lod/leaf_pieces.h"
+#include "lib/analysis/lod/radius_ancestors.h"
 #include "lib/analysis/measure/alpha_raster.h"
 #include "lib/formats/spectrum.h"
 #include "lib/formats/tree.h"
 
 namespace copse {
+
+// What has become of the leaves of a LeafElements.
+struct QuickMerges {
+  struct Leaf {
+    std::uint32_t node, radius, group;
+    double displacement;  // metres
+    DrawnLeaf drawn;
+  };
+  std::vector<Leaf> leaves;         // that are left, along a space-filling curve
+  std::vector<std::uint32_t> host;  // of every node, which of them it is part of
+};
+
+// Merges all nodes of `elements`, of which none has been merged before, until no more than `triangles` are
+// left.
+QuickMerges merge_quickly(const LeafPieces& pieces, const CrownField& field, const RadiusAncestors& ancestors,
+                          LeafElements& elements, std::size_t triangles);
 
 // The spectrum of the leaves in `pieces`, which are `tree`'s; what collapse_spectrum says of its elements and
 // steps holds here too (`full`: triangles at full detail, of which `pieces` may be what is left). Areas add

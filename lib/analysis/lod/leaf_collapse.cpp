@@ -23,10 +23,12 @@ namespace {
 
 using Face = DrawnLeaf::Face;
 
-constexpr double k_prior = 20;      // pixels that the field's word on a leaf is worth
-constexpr double k_good = 0.1;      // pixels of change in all views: no better successor is looked for
-constexpr double k_layers = 7;      // of leaves, behind which nothing is seen whichever way it lies
-constexpr double k_seen = 0.001;    // of its pixels, what a core may change in the picture when it grows
+constexpr double k_prior = 20;    // pixels that the field's word on a leaf is worth
+constexpr double k_good = 0.1;    // pixels of change in all views: no better successor is looked for
+constexpr double k_layers = 7;    // of leaves, behind which nothing is seen whichever way it lies
+constexpr double k_seen = 0.001;  // of its pixels, what a core may change in the picture when it grows
+constexpr double k_many = 0.7, k_many_thin = 0.24;  // of the triangles: no pictures before no more are left
+constexpr std::size_t k_many_leaves = 2000;         // of fewer each matters more
 constexpr double k_doubt = 8;       // pixels that the field's word counts before any picture is drawn
 constexpr double k_hidden = 0.02;   // of a leaf: if it covers no more alone, it may be anywhere
 constexpr double k_margin = 0.008;  // of the crown's width, out of its hull
@@ -38,10 +40,12 @@ struct Effort {
   double sharper;      // pictures are kept until their pixels are so much too small
   int sides;           // to which a leaf may grow
   bool every_pixel;    // of a candidate is looked at
+  bool quick;          // closed forms first
 };
 
 Effort effort_of(CollapseQuality quality) {
-  return quality == CollapseQuality::exact ? Effort{5, 0.12, 1.6, 4, true} : Effort{3, 0.25, 1.6, 2, false};
+  return quality == CollapseQuality::exact ? Effort{5, 0.12, 1.6, 4, true, false}
+                                           : Effort{3, 0.25, 1.6, 2, false, true};
 }
 
 int cells_for(std::size_t triangles) {
@@ -105,10 +109,8 @@ class Collapse {
     for (const Node& n : nodes_) centres.push_back(n.drawn.centre());
     alive_ = curve_order(centres);
     leave_hidden();
-    while (alive_.size() > 1) {
-      round();
-      if (elements_.held() && (share() <= shown_ || alive_.size() == 1)) elements_.show(curtain_);
-    }
+    merge_many();
+    while (alive_.size() > 1) round();
     return elements_.finish();
   }
 
@@ -203,21 +205,61 @@ class Collapse {
     }
     const Occlusion o =
         leaves_by_occlusion(viewed(alive_), offset_, 0.55 * length(box_.extent()), box_,
-                            {.samples = 12 * effort_.leaf_pixels,
+                            {.samples = 8 * effort_.leaf_pixels,
                              .other = options_.other,
                              .coverage = Occlusion::k_coverage,
                              .least = 1 + std::size_t(Occlusion::k_least * double(full_.triangles.size())),
                              .prior = prior});
     if (o.gone.empty()) return;
-    double triangles = 0;
-    for (const Occlusion::Gone& g : o.gone) {
-      const Node& node = nodes_[alive_[g.leaf]];
-      elements_.remove(alive_[g.leaf], g.alone < k_hidden ? 0 : 0.5 * std::sqrt(node.drawn.area()));
-      triangles += double(node.drawn.triangles().size());
+    double triangles = 0, error = 0;
+    std::vector<std::uint32_t> together;
+    for (std::size_t i = 0; i < o.gone.size(); ++i) {
+      const std::uint32_t n = alive_[o.gone[i].leaf];
+      if (o.gone[i].alone >= k_hidden) error = std::max(error, 0.5 * std::sqrt(nodes_[n].drawn.area()));
+      triangles += double(nodes_[n].drawn.triangles().size()), together.push_back(n);
+      if (i + 1 < o.gone.size() && o.step(i + 1) == o.step(i)) continue;
+      std::sort(together.begin(), together.end());
+      elements_.remove(together, error), together.clear();
     }
-    shown_ = (share() - triangles / double(full_.triangles.size())) * Occlusion::k_shown;
-    curtain_ = alive_;
-    elements_.hold();
+    elements_.hold(alive_, (share() * double(full_.triangles.size()) - triangles) * Occlusion::k_shown);
+    left_ = share() - triangles / double(full_.triangles.size());
+    see_as_source(o);
+  }
+
+  // What stays shows what all leaves do, and is drawn sooner.
+  void see_as_source(const Occlusion& o) {
+    std::vector<std::uint8_t> gone(alive_.size(), 0);
+    for (const Occlusion::Gone& g : o.gone) gone[g.leaf] = 1;
+    source_.clear(), source_faces_.clear();
+    std::vector<std::size_t> first;
+    for (std::size_t i = 0; i < alive_.size(); ++i) {
+      first.push_back(source_faces_.size());
+      if (gone[i] == 0)
+        for (const std::uint32_t t : elements_.source(alive_[i]))
+          source_faces_.push_back(pieces_.part.triangles[t]);
+    }
+    first.push_back(source_faces_.size());
+    for (std::size_t i = 0; i < alive_.size(); ++i)
+      if (gone[i] == 0)
+        source_.push_back({pieces_.part.vertices,
+                           std::span(source_faces_).subspan(first[i], first[i + 1] - first[i]),
+                           mask_of(nodes_[alive_[i]])});
+  }
+
+  // As long as there are many, pictures say no more than closed forms: in a crown that hides little, longer.
+  void merge_many() {
+    const auto many = std::size_t((left_ > 0.5 ? k_many_thin : k_many) * double(full_.triangles.size()));
+    if (!effort_.quick || alive_.size() < k_many_leaves || pieces_.triangles.size() <= many) return;
+    QuickMerges merges = merge_quickly(pieces_, field_, ancestors_, elements_, many);
+    std::vector<Patch> sums(nodes_.size());
+    for (std::uint32_t n = 0; n < nodes_.size(); ++n) sums[merges.host[n]] += nodes_[n].patch;
+    alive_.clear();
+    for (QuickMerges::Leaf& l : merges.leaves) {
+      Node& node = nodes_[l.node];
+      node.patch = sums[l.node], node.radius = l.radius, node.group = l.group;
+      node.displacement = l.displacement, node.drawn = l.drawn;
+      alive_.push_back(l.node);
+    }
   }
 
   // Pictures as fine as the leaves that are left, so that a round costs what they are many.
@@ -229,7 +271,7 @@ class Collapse {
     if (views_ && !(pixel > effort_.sharper * asked_)) return;
     asked_ = std::isfinite(pixel) ? pixel : 0;
     // Of very many leaves each matters less.
-    const int views = effort_.every_pixel || alive_.size() < 2000 ? LeafViews::k_most_views : 6;
+    const int views = effort_.every_pixel || alive_.size() < k_many_leaves ? LeafViews::k_most_views : 6;
     views_.emplace(offset_, 0.55 * length(box_.extent()), asked_, turns_++, views, box_);
     views_->set_source(source_);
   }
@@ -255,8 +297,8 @@ class Collapse {
     weights_.room = room(counts);
     weights_.holds = [&](std::uint32_t i) { return held(i); };
     // Of very many leaves more at a time: each of them matters less.
-    const double share = effort_.round * std::clamp(std::sqrt(double(alive_.size()) / 1e4), 1.0, 2.0);
-    weights_.most = std::max<std::size_t>(1, std::size_t(share * double(alive_.size())));
+    const double most = effort_.round * std::clamp(std::sqrt(double(alive_.size()) / 1e4), 1.0, 2.0);
+    weights_.most = std::max<std::size_t>(1, std::size_t(most * double(alive_.size())));
     std::vector<LeafMatch> matches = match_leaves(leaves, weights_);
     std::sort(matches.begin(), matches.end(),
               [](const LeafMatch& x, const LeafMatch& y) { return x.host < y.host; });
@@ -279,6 +321,7 @@ class Collapse {
     merges.erase(std::max(late, merges.begin() + 1), merges.end());
     for (Merge& m : merges) apply(m);
     std::erase(alive_, k_none);
+    elements_.show_at(alive_.size() == 1 ? 0 : share() * double(full_.triangles.size()));
   }
 
   template <class Judge>
@@ -583,9 +626,8 @@ class Collapse {
   std::vector<Face> source_faces_;  // piece after piece
   std::vector<ViewedLeaf> source_;
   std::optional<LeafViews> views_;
-  double area_ = 0;   // m², of all leaves
-  double shown_ = 0;  // share of the triangles at which merged leaves replace those that only lost some
-  std::vector<std::uint32_t> curtain_;  // the nodes in the order in which they do
+  double left_ = 1;  // of the triangles, when what no one misses has left
+  double area_ = 0;  // m², of all leaves
   double asked_ = 0, mean_area_ = 0, hidden_share_ = -1;
   std::uint64_t turns_ = 0;
   std::vector<Node> nodes_;

@@ -86,16 +86,21 @@ void LeafElements::merge(std::span<const std::uint32_t> nodes, const DrawnLeaf& 
   element_[nodes.front()] = put(leaf, material, radius);
 }
 
-void LeafElements::remove(std::uint32_t node, double error) {
+void LeafElements::remove(std::span<const std::uint32_t> nodes, double error) {
   builder_.step(error);
-  gone_[node] = removed_[node] = 1;
-  vanish(node);
+  for (const std::uint32_t n : nodes) gone_[n] = removed_[n] = 1;
+  for (const std::uint32_t n : nodes) vanish(n);
 }
 
-void LeafElements::show(std::span<const std::uint32_t> order) {
+void LeafElements::hold(std::vector<std::uint32_t> order, double triangles) {
+  held_ = true, order_ = std::move(order), shown_ = triangles;
+}
+
+void LeafElements::show_at(double triangles) {
+  if (!held_ || triangles > shown_) return;
   held_ = false;
   builder_.step(error_);
-  for (const std::uint32_t n : order) {
+  for (const std::uint32_t n : order_) {
     const std::uint32_t p = pending_of_[n];
     if (p == k_none && removed_[n] == 0) continue;  // it is drawn as it was
     if (p == k_gone && removed_[n] != 0) continue;
@@ -107,7 +112,7 @@ void LeafElements::show(std::span<const std::uint32_t> order) {
     const Pending now = p == k_none ? Pending{drawn(n), piece.material, piece.radius} : pending_[p];
     element_[n] = put(now.leaf, now.material, now.radius);
   }
-  pending_.clear();
+  pending_.clear(), order_.clear();
 }
 
 // What is drawn of the node is drawn no longer.

@@ -75,15 +75,13 @@ class LeafElements {
   // the state before. Cost: the nodes, and once the triangles of each piece.
   void merge(std::span<const std::uint32_t> nodes, const DrawnLeaf& leaf, std::uint32_t material,
              std::uint32_t radius, double error);
-  // One step: the node goes and nothing takes its place.
-  void remove(std::uint32_t node, double error);
-  // From now on the nodes that were removed are back and merges go on, but nothing of it is drawn until
-  // show().
-  void hold() { held_ = true; }
-  bool held() const { return held_; }
-  // In small steps, each node in its turn, what is drawn becomes what has been merged since hold(). `order`:
-  // all nodes.
-  void show(std::span<const std::uint32_t> order);
+  // One step: the nodes go and nothing takes their place.
+  void remove(std::span<const std::uint32_t> nodes, double error);
+  // From now on the nodes that were removed are back and merges go on, but nothing of it is drawn before
+  // show_at() is told that no more than `triangles` are left. `order`: all nodes.
+  void hold(std::vector<std::uint32_t> order, double triangles);
+  // In small steps, each node in its turn, what is drawn becomes what has been merged since hold().
+  void show_at(double triangles);
   // What the builder says of the steps so far. Leaves nothing here.
   Spectrum finish() { return builder_.finish(); }
 
@@ -107,6 +105,8 @@ class LeafElements {
   std::vector<std::array<std::uint32_t, 3>> put_;  // while one is put
   std::deque<Frond> fronds_;
   bool held_ = false;
+  double shown_ = 0;                       // triangles at which what is held is shown,
+  std::vector<std::uint32_t> order_;       // node by node
   double error_ = 0;                       // of what is held
   std::vector<Pending> pending_;           // leaves that are merged and not yet drawn
   std::vector<std::uint32_t> pending_of_;  // of each node: one of them, k_gone or k_none

@@ -8,6 +8,7 @@
 
 #include "lib/analysis/lod/leaf_views.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,12 +28,16 @@ struct OcclusionOptions {
 struct Occlusion {
   // What leaf collapse makes of it: of the triangles so many stay at least, of the coverage so much; and when
   // of those that stay so many are left, merged leaves take their place.
-  static constexpr double k_least = 0.24, k_coverage = 0.985, k_shown = 0.8;
+  static constexpr double k_least = 0.24, k_coverage = 0.98, k_shown = 0.8;
+  // They leave in so many steps at most: what leaves together is stored in the order of the tree, in a third
+  // of the bytes.
+  static constexpr std::size_t k_steps = 256;
   struct Gone {
     std::uint32_t leaf;
     float alone;  // the share of it that covered what no other leaf did when it went
   };
   std::vector<Gone> gone;  // in this order
+  std::size_t step(std::size_t i) const { return i * std::min(k_steps, gone.size()) / gone.size(); }
   // Of how many pixels all leaves cover, how many are seen in front of others: the mean of both sides.
   double covered = 0, seen = 0;
 };
