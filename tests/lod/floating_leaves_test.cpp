@@ -4,6 +4,8 @@
 #include "lib/analysis/lod/trunk_radii.h"
 #include "tests/lod/tube_tree.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace copse {
@@ -55,9 +57,49 @@ TEST(FloatingLeaves, SmallLeavesFloatWhenTheirTwigsAreGone) {
 }
 
 TEST(FloatingLeaves, ALeafThatReachesTheStemDoesNotFloat) {
-  Tree tree = stem_with_twigs(6, 8, 5);
+  Tree tree = stem_with_twigs(6, 8, 4);  // none above the stem
   const LodSpectra s = with_leaves(tree, 2.0);
   EXPECT_EQ(FloatingLeaves(tree, s).count({.trunk_steps = s.trunk.steps() - 1}), 0u);
+}
+
+TEST(FloatingLeaves, HeldUntilIsTheFirstStepAtWhichItFloats) {
+  Tree tree = stem_with_twigs(6, 8, 5);
+  for (const double size : {0.02, 0.2, 0.6}) {
+    const LodSpectra s = with_leaves(tree, size);
+    const FloatingLeaves floating(tree, s);
+    const std::vector<std::uint32_t> until = floating.held_until();
+    ASSERT_EQ(until.size(), s.leaves.elements.size());
+    for (std::uint32_t steps = 0; steps <= s.trunk.steps(); ++steps) {
+      std::uint64_t held = 0, drawn = 0;
+      for (std::size_t e = 0; e < until.size(); ++e)
+        if (s.leaves.elements[e].birth == 0) ++drawn, held += until[e] > steps;
+      EXPECT_LE(floating.count({.trunk_steps = steps}), drawn - held) << "what is held does not float";
+      const bool first = std::find(until.begin(), until.end(), steps) != until.end();
+      if (first) {
+        EXPECT_GT(floating.count({.trunk_steps = steps}), 0u);
+      }
+    }
+  }
+}
+
+TEST(FloatingLeaves, OneWideGapInAGroupExcusesNoOtherLeaf) {
+  Tree tree = stem_with_twigs(6, 8, 5);
+  LodSpectra s = with_leaves(tree, 0.02);
+  const std::uint64_t before = FloatingLeaves(tree, s).count({.trunk_steps = s.trunk.steps() - 1});
+  // One more leaf at the first twig, that was far from everything at full detail: it may float on.
+  SpectrumBuilder b(LodMethod::collapse);
+  for (const SpectrumVertex& v : s.leaves.vertices) b.vertex(v);
+  const std::uint32_t r = s.leaves.elements[0].radius;
+  b.step(1);
+  for (std::size_t e = 0; e < s.leaves.elements.size(); ++e)
+    b.element(s.leaves.elements[e], std::span(s.leaves.triangles)
+                                        .subspan(s.leaves.first_triangle[e], s.leaves.first_triangle[e + 1] -
+                                                                                 s.leaves.first_triangle[e]));
+  std::array<std::uint32_t, 3> far{};
+  for (std::uint32_t& v : far) v = b.vertex({{9, 9, 9}, {}, {}});
+  b.element({.birth = 0, .death = k_none, .material = k_none, .radius = r}, std::span(&far, 1));
+  s.leaves = b.finish();
+  EXPECT_EQ(FloatingLeaves(tree, s).count({.trunk_steps = s.trunk.steps() - 1}), before);
 }
 
 TEST(FloatingLeaves, WithoutATrunkNothingFloats) {

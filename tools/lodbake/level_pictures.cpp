@@ -69,10 +69,11 @@ std::vector<OrthographicView> LevelPictures::views(std::size_t size) const {
   return out;
 }
 
-double LevelPictures::error(const LodLevel& level) const {
-  const double share = level.triangles / std::max(full_, 1.0);
+double LevelPictures::error(const TriedLevel& level) const {
+  const double share = static_cast<double>(level.triangles) / std::max(full_, 1.0);
   const std::size_t size = share >= 0.25 ? 0 : share >= 0.05 ? 1 : 2;
-  const DrawnMesh mesh = drawn_level(spectra_, level);
+  DrawnMesh mesh = drawn_state(spectra_.trunk, level.trunk_steps);
+  append(mesh, drawn_elements(spectra_.leaves, level.leaves));
   const std::vector<OrthographicView> sides = views(size);
   double sum = 0;
   for (std::size_t i = 0; i < source_[size].size(); ++i) {

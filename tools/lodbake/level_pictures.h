@@ -1,6 +1,7 @@
 // Levels as pictures: for dividing triangles by what is seen, and for the page.
 #pragma once
 
+#include "lib/analysis/lod/coupling.h"
 #include "lib/analysis/measure/drawn_mesh.h"
 #include "lib/analysis/measure/picture.h"
 #include "lib/formats/report.h"
@@ -22,7 +23,7 @@ class LevelPictures {
   // Keeps references to both, and to what `looks` refers to.
   LevelPictures(const LodSpectra& spectra, const Looks& looks);
   // Root mean square error of the pictures against full detail's.
-  double error(const LodLevel& level) const;
+  double error(const TriedLevel& level) const;
 
  private:
   static constexpr std::array k_sizes{128, 96, 48};

@@ -10,6 +10,7 @@
 #include "tools/lodbake/level_pictures.h"
 
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -31,10 +32,10 @@ Spectrum trunk_by_edges(const Tree& tree, const Options& options) {
 Spectrum trunk_spectrum(const Tree& tree, const Options& options, Context& context) {
   Stage stage = context.stage("trunk");
   stage.items(tree.trunk.triangles.size(), "triangles");
-  const bool hierarchy = tree.radius_count() > 0;
+  const bool hierarchy = tree.radius_count() > 0 && !tree.trunk.lines.empty();
   if (options.trunk == TrunkMethod::radii && !hierarchy && !tree.trunk.triangles.empty())
-    context.warn(
-        fmt::format("{}: without a hierarchy of radii the trunk goes by edges", options.input.string()));
+    context.warn(fmt::format("{}: without a hierarchy and its segments the trunk goes by edges",
+                             options.input.string()));
   return options.trunk == TrunkMethod::edges || !hierarchy ? trunk_by_edges(tree, options)
                                                            : trunk_by_radii(tree, {.order = options.removal});
 }
@@ -68,11 +69,13 @@ Result<BakedSpectra> make_spectra(const Tree& tree, const Looks& looks, const Op
   std::optional<LevelPictures> pictures;
   if (both && options.division == Division::picture) {
     pictures.emplace(spectra, looks);
-    error = [&](const LodLevel& level) { return pictures->error(level); };
+    error = [&](const TriedLevel& level) { return pictures->error(level); };
   }
-  const FloatingLeaves floating(tree, spectra);
-  spectra.schedule = couple(spectra, error, [&](const LodLevel& level) { return floating.count(level); },
-                            {.min_triangles = options.min_triangles});
+  // Pruned leaves go a cell at a time, all over the crown: they do not wait for their twigs.
+  std::vector<std::uint32_t> held_until;
+  if (both && spectra.leaves.method != LodMethod::prune)
+    held_until = FloatingLeaves(tree, spectra).held_until();
+  couple(spectra, error, {.min_triangles = options.min_triangles, .held_until = held_until});
   stage.items(spectra.schedule.size(), "knots");
   return baked;
 }

@@ -72,15 +72,15 @@ void sweep(const Tree& tree, const LodSpectra& spectra, const Looks& looks, cons
   const DrawnMesh source = drawn_level(spectra, {});
   const double full = static_cast<double>(source.triangles.size());
   LodSpectra even = spectra, edges = spectra;
-  even.schedule = couple(spectra, nullptr, nullptr);
+  couple(even, nullptr);
   const PartTriangles trunk = trunk_triangles(tree);
   edges.trunk = edge_spectrum(trunk, collapse_edges(trunk), {});
-  edges.schedule = couple(edges, nullptr, nullptr);
+  couple(edges, nullptr);
   LodSpectra pruned = spectra;
   pruned.leaves = pruned_spectrum(
       tree,
       prune_foliage(tree, looks, {.cells = options.cells, .views = 12, .seed = context.options().seed}));
-  pruned.schedule = couple(pruned, nullptr, nullptr);
+  couple(pruned, nullptr);
   const std::optional<Gltfpack> gltfpack = Gltfpack::find(tree);
   if (!gltfpack)
     context.warn("--sweep: gltfpack is not installed (npm install gltfpack), its rows are left out");

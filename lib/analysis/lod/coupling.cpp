@@ -1,9 +1,15 @@
 #include "lib/analysis/lod/coupling.h"
 
+#include "lib/analysis/lod/step_order.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <compare>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace copse {
 namespace {
@@ -11,84 +17,150 @@ namespace {
 // What the trunk keeps of its triangles from one knot to the next, as tried.
 constexpr std::array k_portions{1.0, 0.9, 0.8, 0.68, 0.5, 0.25};
 
+// What a division that leaves enough leaves but misses its target must have at most, of the triangles before.
+constexpr double k_progress = 0.95;
+
+// How good a division is, best first. Leaves that fall far below their even share are worse than a target
+// that is missed, as long as there is any progress.
+struct Rank {
+  enum Kind { good, over, poor, hopeless } kind = good;
+  std::uint64_t too_many = 0;  // triangles
+  double error = 0;            // of the picture, or how far the shares of both parts are from one another
+  friend auto operator<=>(const Rank&, const Rank&) = default;
+};
+
 class Coupler {
  public:
-  Coupler(const LodSpectra& spectra, const LevelError& error, const LevelFloats& floats)
-      : spectra_(spectra), error_(error), floats_(floats) {}
+  Coupler(const LodSpectra& spectra, const LevelError& error, std::span<const std::uint32_t> held_until)
+      : spectra_(spectra),
+        error_(error),
+        order_(spectra.leaves, held_until),
+        state_(order_.full_detail()),
+        knots_(1) {}
 
-  LodLevel next(const LodLevel& from, std::uint64_t target) {
-    LodLevel best = from;
-    double least = std::numeric_limits<double>::infinity();
-    if (!error_) {
-      const LodLevel level = even(from, target);
-      return floats_ && floats_(level) > 0 ? nearly_even(from, target, level) : level;
+  std::uint64_t triangles() const { return count(spectra_.trunk, trunk_) + state_.triangles; }
+
+  // Goes to the best division with at most so many triangles, or as few as there are; false when all have
+  // fewer than `least` or none fewer than now.
+  bool go(std::uint64_t target, std::uint64_t least) {
+    best_.reset(), tried_.clear();
+    const std::uint64_t trunk = count(spectra_.trunk, trunk_);
+    const std::uint64_t even_trunk = count(spectra_.trunk, even(target));
+    if (error_) {
+      for (const double portion : k_portions)
+        consider(static_cast<std::uint64_t>(std::floor(portion * static_cast<double>(trunk))), target);
+      if (state_.triangles <= target) consider(target - state_.triangles, target);
+      consider(even_trunk, target);
+    } else {
+      consider(even_trunk, target);
+      for (std::uint64_t i = 1; i <= k_even_tries && best_ && best_->rank.error > k_near_even; ++i)
+        consider(even_trunk + (trunk - std::min(trunk, even_trunk)) * i / k_even_tries, target);
     }
-    std::vector<LodLevel> tried;
-    const std::uint64_t trunk = count(spectra_.trunk, from.trunk_steps);
-    const auto consider = [&](std::uint64_t trunk_triangles) {
-      const LodLevel level = divide(from, target, trunk_triangles);
-      if (level.triangles > target || std::find(tried.begin(), tried.end(), level) != tried.end()) return;
-      tried.push_back(level);
-      if (floats_ && floats_(level) > 0) return;
-      const double now = error_(level);
-      if (now < least) least = now, best = level;
-    };
-    for (const double portion : k_portions)
-      consider(static_cast<std::uint64_t>(std::floor(portion * static_cast<double>(trunk))));
-    const std::uint64_t leaves = count(spectra_.leaves, from.leaf_steps);
-    if (leaves <= target) consider(target - leaves);
-    consider(count(spectra_.trunk, even(from, target).trunk_steps));
-    // Nothing fits, or everything floats: the leaves alone give, and only at last both.
-    return std::isfinite(least) ? best : leaves_alone(from, target);
+    if (!best_ || best_->triangles < least) return false;
+    take_best();
+    return true;
+  }
+
+  // The spectra in their new order, with the schedule.
+  void finish(LodSpectra& spectra) {
+    if (!in_order()) spectra.leaves = order_.reordered(batches_);
+    spectra.schedule.clear();
+    for (const auto& [trunk, leaves] : knots_) spectra.schedule.push_back(level_at(spectra, trunk, leaves));
   }
 
  private:
-  // The trunk keeps more than its share, as little more as holds the leaves.
-  LodLevel nearly_even(const LodLevel& from, std::uint64_t target, const LodLevel& even) const {
-    const std::uint64_t least = count(spectra_.trunk, even.trunk_steps);
-    const std::uint64_t most = count(spectra_.trunk, from.trunk_steps);
-    constexpr std::uint64_t k_tries = 8;
-    for (std::uint64_t i = 1; i < k_tries; ++i) {
-      const LodLevel level = divide(from, target, least + (most - least) * i / k_tries);
-      if (level.triangles <= target && floats_(level) == 0) return level;
-    }
-    return leaves_alone(from, target);
+  static constexpr std::uint64_t k_even_tries = 8;
+  static constexpr double k_near_even = 0.02;  // of all leaves
+  static constexpr double k_fair = 0.5;        // of their even share
+  struct Division {
+    std::uint32_t trunk = 0;
+    std::uint64_t triangles = 0;
+    std::vector<StepOrder::Batch> forced, free;
+    StepOrder::State state;
+    Rank rank;
+  };
+
+  void consider(std::uint64_t trunk_triangles, std::uint64_t target) {
+    const std::uint32_t trunk = std::max(trunk_, step_with(spectra_.trunk, trunk_triangles));
+    if (std::find(tried_.begin(), tried_.end(), trunk) != tried_.end()) return;
+    tried_.push_back(trunk);
+    const std::uint64_t used = count(spectra_.trunk, trunk);
+    Division division;
+    division.trunk = trunk, division.state = state_;
+    if (!order_.take_forced(division.state, trunk, division.forced)) return;
+    std::uint64_t wanted = target > used ? target - used : 0;
+    if (!error_) wanted = std::min(wanted, even_leaves(target));
+    order_.take_until(division.state, trunk, wanted, division.free);
+    division.triangles = used + division.state.triangles;
+    if (division.triangles >= triangles()) return;
+    division.rank = rank(division, target);
+    if (!best_ || division.rank < best_->rank) best_ = std::move(division);
   }
 
-  LodLevel leaves_alone(const LodLevel& from, std::uint64_t target) const {
-    const std::uint64_t trunk = count(spectra_.trunk, from.trunk_steps);
-    const LodLevel level =
-        level_at(spectra_, from.trunk_steps,
-                 std::max(from.leaf_steps, step_with(spectra_.leaves, target > trunk ? target - trunk : 0)));
-    return level.triangles < from.triangles ? level : even(from, target);
+  Rank rank(const Division& division, std::uint64_t target) const {
+    const auto leaves = static_cast<double>(division.state.triangles);
+    const auto fair = static_cast<double>(std::min(even_leaves(target), state_.triangles));
+    const bool poor = leaves<k_fair * fair, over = division.triangles> target,
+               slow = static_cast<double>(division.triangles) > k_progress * static_cast<double>(triangles());
+    Rank rank;
+    rank.kind = over ? (poor || slow ? Rank::hopeless : Rank::over) : poor ? Rank::poor : Rank::good;
+    rank.too_many = over ? division.triangles - target : 0;
+    rank.error =
+        error_ ? error_({division.trunk, division.state.drawn, division.triangles}) : unevenness(division);
+    return rank;
+  }
+
+  double unevenness(const Division& division) const {
+    const std::uint64_t trunk = count(spectra_.trunk, 0), leaves = count(spectra_.leaves, 0);
+    if (trunk == 0 || leaves == 0) return 0;
+    return std::abs(static_cast<double>(count(spectra_.trunk, division.trunk)) / static_cast<double>(trunk) -
+                    static_cast<double>(division.state.triangles) / static_cast<double>(leaves));
+  }
+
+  void take_best() {
+    for (auto& batch : best_->forced) batches_.push_back(std::move(batch));
+    if (!best_->forced.empty() && best_->trunk != trunk_) add_knot(trunk_);
+    for (auto& batch : best_->free) batches_.push_back(std::move(batch));
+    trunk_ = best_->trunk, state_ = std::move(best_->state);
+    add_knot(trunk_);
+  }
+
+  void add_knot(std::uint32_t trunk) {
+    knots_.emplace_back(trunk, static_cast<std::uint32_t>(batches_.size()));
+  }
+
+  bool in_order() const {
+    for (std::size_t i = 0; i < batches_.size(); ++i)
+      if (batches_[i].size() != 1 || batches_[i][0] != i + 1) return false;
+    return true;
   }
 
   static std::uint64_t count(const Spectrum& s, std::uint32_t steps) {
     return s.counts.empty() ? 0 : s.counts[steps];
   }
-
-  LodLevel divide(const LodLevel& from, std::uint64_t target, std::uint64_t trunk_triangles) const {
-    const std::uint32_t trunk = std::max(from.trunk_steps, step_with(spectra_.trunk, trunk_triangles));
-    const std::uint64_t used = count(spectra_.trunk, trunk);
-    const std::uint32_t leaves =
-        std::max(from.leaf_steps, step_with(spectra_.leaves, target > used ? target - used : 0));
-    return level_at(spectra_, trunk, leaves);
-  }
   // The same share of each.
-  LodLevel even(const LodLevel& from, std::uint64_t target) const {
+  double share(std::uint64_t target) const {
     const double whole = static_cast<double>(count(spectra_.trunk, 0) + count(spectra_.leaves, 0));
-    const double share = whole > 0 ? static_cast<double>(target) / whole : 0;
-    const auto part = [&](const Spectrum& s, std::uint32_t steps) {
-      return std::max(
-          steps,
-          step_with(s, static_cast<std::uint64_t>(std::floor(share * static_cast<double>(count(s, 0))))));
-    };
-    return level_at(spectra_, part(spectra_.trunk, from.trunk_steps), part(spectra_.leaves, from.leaf_steps));
+    return whole > 0 ? static_cast<double>(target) / whole : 0;
+  }
+  std::uint32_t even(std::uint64_t target) const {
+    const double trunk = share(target) * static_cast<double>(count(spectra_.trunk, 0));
+    return step_with(spectra_.trunk, static_cast<std::uint64_t>(std::floor(trunk)));
+  }
+  std::uint64_t even_leaves(std::uint64_t target) const {
+    return static_cast<std::uint64_t>(
+        std::floor(share(target) * static_cast<double>(count(spectra_.leaves, 0))));
   }
 
   const LodSpectra& spectra_;
   const LevelError& error_;
-  const LevelFloats& floats_;
+  StepOrder order_;
+  std::uint32_t trunk_ = 0;
+  StepOrder::State state_;
+  std::vector<StepOrder::Batch> batches_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> knots_;  // steps of the trunk, of the leaves
+  std::optional<Division> best_;
+  std::vector<std::uint32_t> tried_;
 };
 
 }  // namespace
@@ -113,18 +185,15 @@ std::uint32_t step_with(const Spectrum& spectrum, std::uint64_t triangles) {
   return std::min(static_cast<std::uint32_t>(at - spectrum.counts.begin()), spectrum.steps());
 }
 
-std::vector<LodLevel> couple(const LodSpectra& spectra, const LevelError& error, const LevelFloats& floats,
-                             const CouplingOptions& options) {
-  std::vector<LodLevel> knots{level_at(spectra, 0, 0)};
-  Coupler coupler(spectra, error, floats);
-  const LodLevel end = level_at(spectra, spectra.trunk.steps(), spectra.leaves.steps());
-  while (knots.back().triangles > std::max<std::uint64_t>(end.triangles, options.min_triangles)) {
-    const auto target = static_cast<std::uint64_t>(std::floor(options.knot_ratio * knots.back().triangles));
-    const LodLevel next = coupler.next(knots.back(), std::max<std::uint64_t>(target, end.triangles));
-    if (next.triangles >= knots.back().triangles || next.triangles < options.min_triangles) break;
-    knots.push_back(next);
+void couple(LodSpectra& spectra, const LevelError& error, const CouplingOptions& options) {
+  Coupler coupler(spectra, error, options.held_until);
+  const std::uint64_t end = level_at(spectra, spectra.trunk.steps(), spectra.leaves.steps()).triangles;
+  while (coupler.triangles() > std::max(end, options.min_triangles)) {
+    const auto target =
+        static_cast<std::uint64_t>(std::floor(options.knot_ratio * static_cast<double>(coupler.triangles())));
+    if (!coupler.go(std::max({target, end, options.min_triangles}), options.min_triangles)) break;
   }
-  return knots;
+  coupler.finish(spectra);
 }
 
 }  // namespace copse

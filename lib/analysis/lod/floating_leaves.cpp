@@ -4,26 +4,35 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
+
+#include <tbb/parallel_for.h>
 
 namespace copse {
 namespace {
 
-constexpr double k_visible_gap = 0.01;  // of the tree's height
+using Corners = std::array<Double3, 3>;
 
-// Between the segments p q and a b.
-double segment_distance(const Double3& p, const Double3& q, const Double3& a, const Double3& b) {
+constexpr double k_visible_gap = 0.01;  // of the tree's height
+// What was a metre away does not look otherwise a hand farther off: the shell of a crown that is one leaf.
+constexpr double k_wider = 1.25;
+
+// Between the segments p q and a b, squared.
+double segment_square(const Double3& p, const Double3& q, const Double3& a, const Double3& b) {
   const Double3 u = q - p, v = b - a, w = p - a;
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w),
                d = uu * vv - uv * uv;
   double s = d > 1e-12 * uu * vv ? std::clamp((uv * vw - vv * uw) / d, 0.0, 1.0) : 0;
   const double t = vv > 0 ? std::clamp((s * uv + vw) / vv, 0.0, 1.0) : 0;
   s = uu > 0 ? std::clamp((t * uv - uw) / uu, 0.0, 1.0) : 0;
-  return length(p + u * s - (a + v * t));
+  const Double3 apart = p + u * s - (a + v * t);
+  return dot(apart, apart);
 }
 
 // Whether the segment a b goes through the triangle.
-bool pierces(const std::array<Double3, 3>& t, const Double3& a, const Double3& b) {
-  const Double3 n = cross(t[1] - t[0], t[2] - t[0]), d = b - a;
+bool pierces(const Corners& t, const Double3& n, const Double3& a, const Double3& b) {
+  const Double3 d = b - a;
   const double along = dot(n, d), from = dot(n, t[0] - a);
   if (along == 0 || from / along < 0 || from / along > 1) return false;
   const Double3 p = a + d * (from / along);
@@ -32,74 +41,255 @@ bool pierces(const std::array<Double3, 3>& t, const Double3& a, const Double3& b
   return true;
 }
 
-double point_distance(const Double3& p, const std::array<Double3, 3>& t) {
-  const Double3 n = cross(t[1] - t[0], t[2] - t[0]);
-  const double size = length(n);
-  bool inside = size > 0;
-  for (std::size_t c = 0; inside && c < 3; ++c) inside = dot(n, cross(t[(c + 1) % 3] - t[c], p - t[c])) >= 0;
-  return inside ? std::abs(dot(n, p - t[0])) / size : std::numeric_limits<double>::infinity();
+// From a point to the triangle's inside, along its normal, squared; infinite beside it.
+double plane_square(const Double3& p, const Corners& t, const Double3& n) {
+  const double size = dot(n, n);
+  if (!(size > 0)) return std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < 3; ++c)
+    if (dot(n, cross(t[(c + 1) % 3] - t[c], p - t[c])) < 0) return std::numeric_limits<double>::infinity();
+  const double along = dot(n, p - t[0]);
+  return along * along / size;
 }
 
-double triangle_distance(const std::array<Double3, 3>& t, const Double3& a, const Double3& b) {
-  if (pierces(t, a, b)) return 0;
-  double least = std::min(point_distance(a, t), point_distance(b, t));
-  for (std::size_t c = 0; c < 3; ++c) least = std::min(least, segment_distance(t[c], t[(c + 1) % 3], a, b));
+// Between two triangles; or something from there to `enough`, when that is less work.
+double triangle_square(const Corners& t, const Corners& s, double enough) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Double3 apart = t[c] - s[k];
+      least = std::min(least, dot(apart, apart));
+    }
+  }
+  if (least <= enough) return least;
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t k = 0; k < 3; ++k)
+      least = std::min(least, segment_square(t[c], t[(c + 1) % 3], s[k], s[(k + 1) % 3]));
+    if (least <= enough) return least;
+  }
+  const Double3 tn = cross(t[1] - t[0], t[2] - t[0]), sn = cross(s[1] - s[0], s[2] - s[0]);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t next = (c + 1) % 3;
+    if (pierces(t, tn, s[c], s[next]) || pierces(s, sn, t[c], t[next])) return 0;
+    least = std::min({least, plane_square(s[c], t, tn), plane_square(t[c], s, sn)});
+  }
   return least;
 }
+
+double box_square(const DoubleBox& a, const DoubleBox& b) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double d = std::max({a.min[i] - b.max[i], 0.0, b.min[i] - a.max[i]});
+    sum += d * d;
+  }
+  return sum;
+}
+
+Corners corners_of(const Spectrum& s, std::uint32_t triangle) {
+  Corners out;
+  for (std::size_t c = 0; c < 3; ++c) out[c] = to_double(s.vertices[s.triangles[triangle][c]].position);
+  return out;
+}
+
+DoubleBox box_of(const Corners& triangle) {
+  DoubleBox box;
+  for (const Double3& p : triangle) box.grow(p);
+  return box;
+}
+
+// The triangles of one leaf, each with its box.
+struct Leaf {
+  Leaf(const Spectrum& s, std::size_t element) {
+    for (std::uint32_t t = s.first_triangle[element]; t < s.first_triangle[element + 1]; ++t) {
+      triangles.push_back(corners_of(s, t));
+      boxes.push_back(box_of(triangles.back()));
+      box.grow(boxes.back());
+    }
+  }
+  // To the triangle with that box, squared; or anything above `reach`, or something up to `enough`.
+  double square_to(const Corners& triangle, const DoubleBox& its, double reach, double enough) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (least > enough && box_square(boxes[t], its) <= std::min(reach, least))
+        least = std::min(least, triangle_square(triangles[t], triangle, enough));
+    }
+    return least;
+  }
+  std::vector<Corners> triangles;
+  std::vector<DoubleBox> boxes;
+  DoubleBox box;
+};
 
 }  // namespace
 
-FloatingLeaves::FloatingLeaves(const Tree& tree, const LodSpectra& spectra)
-    : spectra_(spectra), centres_(absolute_centres(tree)), parent_(parents(tree)) {
-  for (const Radius& r : tree.hierarchy.radii) half_.push_back(0.5 * r.diameter);
+// Triangles that a trunk has at some step, in a binary tree of boxes that also know when: node i's children
+// are 2i + 1 and 2i + 2.
+class FloatingLeaves::DrawnTrunk {
+ public:
+  // Those that are born by step `last`.
+  DrawnTrunk(const Spectrum& trunk, std::uint32_t last) {
+    for (std::size_t e = 0; e < trunk.elements.size(); ++e) {
+      if (trunk.elements[e].birth > last) continue;
+      for (std::uint32_t t = trunk.first_triangle[e]; t < trunk.first_triangle[e + 1]; ++t)
+        pieces_.push_back({corners_of(trunk, t), {}, trunk.elements[e].birth, trunk.elements[e].death});
+    }
+    for (Piece& piece : pieces_) piece.box = box_of(piece.corners);
+    std::size_t bottoms = 1;
+    while (bottoms * k_bottom < pieces_.size()) bottoms *= 2;
+    nodes_.resize(2 * bottoms - 1);
+    nodes_[0].last = static_cast<std::uint32_t>(pieces_.size());
+    for (std::size_t i = 0; i < nodes_.size(); ++i) build(i, i + 1 < bottoms);
+  }
+
+  // How far the leaf is from the nearest of all.
+  double gap(const Leaf& leaf) const {
+    double least = std::numeric_limits<double>::infinity();
+    visit<false>(
+        leaf, 0, [](const auto&) { return true; }, [&] { return least; },
+        [&](const Piece&, double square) { return (least = square) > 0; });
+    return std::sqrt(least);
+  }
+
+  // The step that takes away the last of what is within `allowed` and drawn after `steps` steps; nothing when
+  // nothing is within.
+  std::optional<std::uint32_t> reached_until(const Leaf& leaf, double allowed, std::uint32_t steps) const {
+    std::optional<std::uint32_t> until;
+    visit<true>(
+        leaf, allowed * allowed,
+        [&](const auto& part) {
+          return part.birth <= steps && part.death > steps && (!until || part.death > *until);
+        },
+        [&] { return allowed * allowed; },
+        [&](const Piece& piece, double) { return (until = piece.death) != k_none; });
+    return until;
+  }
+
+  bool reached(const Leaf& leaf, double allowed, std::uint32_t steps) const {
+    bool found = false;
+    visit<false>(
+        leaf, allowed * allowed, [&](const auto& part) { return part.birth <= steps && part.death > steps; },
+        [&] { return allowed * allowed; },
+        [&](const Piece&, double) {
+          found = true;
+          return false;
+        });
+    return found;
+  }
+
+ private:
+  static constexpr std::size_t k_bottom = 4;
+  struct Piece {
+    Corners corners;
+    DoubleBox box;
+    std::uint32_t birth = 0, death = k_none;
+  };
+  struct Node {
+    DoubleBox box;
+    std::uint32_t first = 0, last = 0;
+    std::uint32_t birth = k_none, death = 0;  // the first and the last of what is in it
+  };
+
+  void build(std::size_t i, bool inner) {
+    Node& node = nodes_[i];
+    DoubleBox middles;
+    for (std::uint32_t p = node.first; p < node.last; ++p) {
+      node.box.grow(pieces_[p].box);
+      middles.grow(pieces_[p].box.centre());
+      node.birth = std::min(node.birth, pieces_[p].birth);
+      node.death = std::max(node.death, pieces_[p].death);
+    }
+    if (!inner) return;
+    const std::uint32_t half = node.first + (node.last - node.first) / 2;
+    const Double3 extent = middles.empty() ? Double3{} : middles.extent();
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const auto at = [&](std::uint32_t p) { return pieces_.begin() + static_cast<std::ptrdiff_t>(p); };
+    std::nth_element(at(node.first), at(half), at(node.last), [&](const Piece& a, const Piece& b) {
+      return a.box.min[axis] + a.box.max[axis] < b.box.min[axis] + b.box.max[axis];
+    });
+    nodes_[2 * i + 1].first = node.first, nodes_[2 * i + 1].last = half;
+    nodes_[2 * i + 2].first = half, nodes_[2 * i + 2].last = node.last;
+  }
+
+  // Calls found(piece, squared distance) for pieces that are wanted and within the square of reach(), which
+  // may fall, until it says false: the nearest branches first, or those that last longest.
+  template <bool Lasting, class Wanted, class Reach, class Found>
+  void visit(const Leaf& leaf, double enough, Wanted wanted, Reach reach, Found found) const {
+    std::array<std::uint32_t, 64> stack{};
+    int depth = 0;
+    const auto open = [&](std::uint32_t i) {
+      const Node& node = nodes_[i];
+      return node.first != node.last && wanted(node) && box_square(node.box, leaf.box) <= reach();
+    };
+    if (!pieces_.empty() && !leaf.triangles.empty() && open(0)) stack[depth++] = 0;
+    const Double3 middle = leaf.box.centre();
+    const auto away = [&](std::uint32_t i) {
+      const Double3 d = nodes_[i].box.centre() - middle;
+      return dot(d, d);
+    };
+    while (depth > 0) {
+      const std::uint32_t i = stack[--depth];
+      const Node& node = nodes_[i];
+      if (2 * i + 2 >= nodes_.size()) {
+        for (std::uint32_t p = node.first; p < node.last; ++p) {
+          const Piece& piece = pieces_[p];
+          if (!wanted(piece) || box_square(piece.box, leaf.box) > reach()) continue;
+          const double square = leaf.square_to(piece.corners, piece.box, reach(), enough);
+          if (square <= reach() && !found(piece, square)) return;
+        }
+        continue;
+      }
+      const std::uint32_t l = 2 * i + 1, r = l + 1;
+      const bool to_left = open(l), to_right = open(r);
+      if (to_left && to_right) {
+        const bool left = Lasting && nodes_[l].death != nodes_[r].death ? nodes_[l].death > nodes_[r].death
+                                                                        : away(l) <= away(r);
+        stack[depth++] = left ? r : l, stack[depth++] = left ? l : r;
+      } else if (to_left || to_right) {
+        stack[depth++] = to_left ? l : r;
+      }
+    }
+  }
+
+  std::vector<Piece> pieces_;
+  std::vector<Node> nodes_;
+};
+
+FloatingLeaves::FloatingLeaves(const Tree& tree, const LodSpectra& spectra) : spectra_(spectra) {
+  if (spectra.trunk.elements.empty()) return;
+  full_ = std::make_unique<const DrawnTrunk>(spectra.trunk, 0);
+  drawn_ = std::make_unique<const DrawnTrunk>(spectra.trunk, spectra.trunk.steps());
   tolerance_ = k_visible_gap * tree.header.bounds.extent().y;
-  const Spectrum& s = spectra.leaves;
-  allowed_.assign(centres_.size(), tolerance_);
-  for (std::size_t e = 0; e < s.elements.size(); ++e) {
-    const std::uint32_t r = s.elements[e].radius;
-    if (s.elements[e].birth == 0 && r < allowed_.size()) allowed_[r] = std::max(allowed_[r], gap(e, r));
-  }
 }
 
-double FloatingLeaves::gap(std::size_t element, std::uint32_t radius) const {
-  double least = std::numeric_limits<double>::infinity();
-  const Double3 a = centres_[radius], b = parent_[radius] == k_none ? a : centres_[parent_[radius]];
-  const Spectrum& s = spectra_.leaves;
-  for (std::uint32_t t = s.first_triangle[element]; t < s.first_triangle[element + 1]; ++t) {
-    std::array<Double3, 3> corners;
-    for (std::size_t c = 0; c < 3; ++c) corners[c] = to_double(s.vertices[s.triangles[t][c]].position);
-    least = std::min(least, triangle_distance(corners, a, b) - half_[radius]);
-  }
-  return least;
-}
-
-std::vector<std::uint8_t> FloatingLeaves::alive_radii(std::uint32_t steps) const {
-  std::vector<std::uint8_t> alive(centres_.size(), 0);
-  for (const SpectrumElement& e : spectra_.trunk.elements) {
-    if (steps < e.birth || steps >= e.death) continue;
-    // A limb outlives what grows from it: from here down to the root all is there.
-    for (std::uint32_t r = e.radius; r < alive.size() && !alive[r]; r = parent_[r]) alive[r] = 1;
-  }
-  return alive;
-}
+FloatingLeaves::~FloatingLeaves() = default;
 
 std::uint64_t FloatingLeaves::count(const LodLevel& level) const {
-  if (spectra_.trunk.elements.empty() || centres_.empty()) return 0;
-  const std::vector<std::uint8_t> alive = alive_radii(level.trunk_steps);
-  std::uint64_t floating = 0;
+  if (!drawn_) return 0;
   const auto& elements = spectra_.leaves.elements;
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (level.leaf_steps < elements[e].birth || level.leaf_steps >= elements[e].death) continue;
-    std::uint32_t r = elements[e].radius;
-    if (r >= alive.size() || alive[r]) continue;
-    const double allowed = allowed_[r];
-    bool reached = false;
-    // What is left of the trunk near the bearer: its first ancestor that is there, and a few above.
-    while (r != k_none && !alive[r]) r = parent_[r];
-    for (int up = 0; up < 4 && r != k_none && !reached; ++up, r = parent_[r]) reached = gap(e, r) <= allowed;
-    if (!reached) ++floating;
-  }
-  return floating;
+  std::vector<std::uint8_t> floats(elements.size(), 0);
+  tbb::parallel_for(std::size_t{0}, floats.size(), [&](std::size_t e) {
+    if (level.leaf_steps < elements[e].birth || level.leaf_steps >= elements[e].death) return;
+    const Leaf leaf(spectra_.leaves, e);
+    floats[e] = !drawn_->reached(leaf, tolerance_, level.trunk_steps) &&
+                !drawn_->reached(leaf, k_wider * full_->gap(leaf) + tolerance_, level.trunk_steps);
+  });
+  return static_cast<std::uint64_t>(std::count(floats.begin(), floats.end(), 1));
+}
+
+std::vector<std::uint32_t> FloatingLeaves::held_until() const {
+  if (!drawn_) return {};
+  std::vector<std::uint32_t> out(spectra_.leaves.elements.size(), k_none);
+  tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t e) {
+    const Leaf leaf(spectra_.leaves, e);
+    const double allowed = k_wider * full_->gap(leaf) + tolerance_;
+    std::uint32_t steps = 0;
+    while (steps != k_none) {
+      const auto until = drawn_->reached_until(leaf, allowed, steps);
+      if (!until) break;
+      steps = *until;
+    }
+    out[e] = steps;
+  });
+  return out;
 }
 
 }  // namespace copse

@@ -5,31 +5,36 @@
 #include "lib/formats/tree.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace copse {
 
-// A leaf whose bearer is gone passes to the nearest ancestor that is still there. It floats when it is
-// farther from that part of the trunk (the axis between the radius, its parent and its children, less the
-// thickness) than the leaves of its bearer are from their bearer at full detail, and than one percent of the
-// tree's height. A leaf without a known bearer, and a tree that never had a trunk, float nowhere.
+// A leaf, single or merged, floats when it is farther from the trunk that is drawn than 1.25 times what its
+// own triangles are from the trunk at full detail and one percent of the tree's height. Distances are
+// those between triangles as they are drawn. Without a trunk at full detail nothing floats; where nothing is
+// left of one, all leaves do.
 class FloatingLeaves {
  public:
+  // Keeps a reference to `spectra`. O(n log n) in the trunk's triangles.
   FloatingLeaves(const Tree& tree, const LodSpectra& spectra);
+  ~FloatingLeaves();
+  FloatingLeaves(const FloatingLeaves&) = delete;
+  FloatingLeaves& operator=(const FloatingLeaves&) = delete;
 
-  // O(elements of both spectra + radii).
+  // Of the leaves that are drawn. O(log n) a leaf.
   std::uint64_t count(const LodLevel& level) const;
 
+  // Of every element of the leaves the first number of trunk steps after which it would float, at least 1;
+  // k_none when it never does. Empty without a trunk. O(log n) an element and form that the trunk near it
+  // takes.
+  std::vector<std::uint32_t> held_until() const;
+
  private:
-  // Between an element's triangles and the axis from a radius to its parent, less half the diameter.
-  double gap(std::size_t element, std::uint32_t radius) const;
-  std::vector<std::uint8_t> alive_radii(std::uint32_t steps) const;
+  class DrawnTrunk;
 
   const LodSpectra& spectra_;
-  std::vector<Double3> centres_;
-  std::vector<std::uint32_t> parent_;
-  std::vector<double> half_;     // of the diameter
-  std::vector<double> allowed_;  // of every radius: how far its leaves are from it
+  std::unique_ptr<const DrawnTrunk> full_, drawn_;  // of full detail; of all steps
   double tolerance_ = 0;
 };
 

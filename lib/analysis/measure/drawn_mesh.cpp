@@ -112,12 +112,15 @@ DrawnMesh drawn_trunk(const Tree& tree) {
   return unify.take();
 }
 
-DrawnMesh drawn_state(const Spectrum& spectrum, std::uint32_t steps) {
+namespace {
+
+template <class Drawn>
+DrawnMesh drawn_where(const Spectrum& spectrum, Drawn drawn) {
   DrawnMesh mesh;
   std::vector<std::uint32_t> at(spectrum.vertices.size(), k_none);
   for (std::size_t e = 0; e < spectrum.elements.size(); ++e) {
     const SpectrumElement& element = spectrum.elements[e];
-    if (element.birth > steps || element.death <= steps) continue;
+    if (!drawn(e)) continue;
     for (std::uint32_t t = spectrum.first_triangle[e]; t < spectrum.first_triangle[e + 1]; ++t) {
       Triangle corners{};
       for (int c = 0; c < 3; ++c) {
@@ -135,6 +138,18 @@ DrawnMesh drawn_state(const Spectrum& spectrum, std::uint32_t steps) {
     }
   }
   return mesh;
+}
+
+}  // namespace
+
+DrawnMesh drawn_state(const Spectrum& spectrum, std::uint32_t steps) {
+  return drawn_where(spectrum, [&](std::size_t e) {
+    return spectrum.elements[e].birth <= steps && spectrum.elements[e].death > steps;
+  });
+}
+
+DrawnMesh drawn_elements(const Spectrum& spectrum, std::span<const std::uint8_t> drawn) {
+  return drawn_where(spectrum, [&](std::size_t e) { return drawn[e] != 0; });
 }
 
 void append(DrawnMesh& mesh, const DrawnMesh& more) {

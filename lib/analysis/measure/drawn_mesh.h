@@ -41,6 +41,8 @@ DrawnMesh drawn_trunk(const Tree& tree);
 
 // What is drawn of a spectrum after `steps` steps, with the positions that it uses.
 DrawnMesh drawn_state(const Spectrum& spectrum, std::uint32_t steps);
+// What is drawn of a spectrum when these elements are: not 0, one entry an element.
+DrawnMesh drawn_elements(const Spectrum& spectrum, std::span<const std::uint8_t> drawn);
 
 // Puts `more` behind what is there.
 void append(DrawnMesh& mesh, const DrawnMesh& more);
