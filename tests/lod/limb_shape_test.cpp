@@ -138,7 +138,7 @@ TEST(LimbShape, ACrownOfPointsIsNoRing) {
 
 TEST(LimbShape, WhatIsThickForTheTreeCountsMore) {
   const Limb limb(stem_with_twigs(5, 8, 0));  // 4 m high, 0.5 m of radius
-  EXPECT_NEAR(limb.shape.weight(0), 1 + 40 * 0.5 / 4, 0.01);
+  EXPECT_NEAR(limb.shape.weight(0), 1 + 80 * 0.5 / 4, 0.01);
 }
 
 TEST(LimbShape, CountsItsTriangles) {

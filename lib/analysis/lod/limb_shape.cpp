@@ -12,9 +12,9 @@ constexpr double k_apart_widths =
 constexpr double k_narrowest = 0.3, k_widest = 1.5;        // of a ring's perimeter
 constexpr double k_least_wider = 0.8, k_most_wider = 1.5;  // of what is made straight
 constexpr double k_wider_steps = 20;                       // in 1: rungs that differ little share their rings
-// A radius of so much of the tree's size doubles a weight: there five percent of the coverage and a mean
-// distance of .25 % of the height, what a level may err by, are the same.
-constexpr double k_heavy = 1.0 / 40;
+// A radius of so much of the tree's size doubles a weight. At 1/40 five percent of the coverage and a mean
+// distance of .25 % of the height, what a level may err by, cost the same; coverage has room to spare.
+constexpr double k_heavy = 1.0 / 80;
 constexpr double k_turn = 2 * std::numbers::pi;
 constexpr double k_widest_gap = 2.6;  // radians between neighbours on a ring: a triangle has 2.1
 constexpr double k_inner_share =
