@@ -87,6 +87,27 @@ TEST(TrunkRadii, ALimbOutlivesWhatGrowsFromIt) {
   }
 }
 
+TEST(TrunkRadii, OfTwoTwigsThatAreAlikeTheOneThatBearsLeavesStaysLonger) {
+  const Tree bare = stem_with_twigs(8, 8, 2);
+  std::vector<std::uint32_t> tips;
+  for (std::uint32_t r = 0; r < bare.radius_count(); ++r)
+    if ((bare.hierarchy.radii[r].flags & Radius::terminal) && bare.hierarchy.radii[r].diameter < 0.2)
+      tips.push_back(r);
+  ASSERT_EQ(tips.size(), 2u);
+  for (const std::size_t bearer : {0u, 1u}) {
+    Tree tree = bare;
+    std::vector<Radius> radii = tree.hierarchy.radii.to_vector();
+    radii[tips[bearer]].first_child = 0, radii[tips[bearer]].child_count = 1;
+    tree.hierarchy.radii = radii;
+    const Spectrum s = trunk_by_radii(tree);
+    std::uint32_t gone[2] = {0, 0};
+    for (const SpectrumElement& e : s.elements)
+      for (const std::size_t twig : {0u, 1u})
+        if (e.radius == tips[twig]) gone[twig] = std::max(gone[twig], e.death);
+    EXPECT_GT(gone[bearer], gone[1 - bearer]);
+  }
+}
+
 TEST(TrunkRadii, ByDiameterThinLimbsAreGoneBeforeThickOnesChange) {
   const Tree tree = stem_with_twigs(8, 8, 20);
   const Spectrum s = trunk_by_radii(tree, {.order = RemovalOrder::diameter});

@@ -263,6 +263,13 @@ void sort_by_diameter(const std::vector<LimbChain>& limbs, const std::vector<Lad
   });
 }
 
+bool bears_leaves(const Tree& tree, const LimbChain& limb) {
+  return std::any_of(limb.radii.begin(), limb.radii.end(), [&](std::uint32_t r) {
+    const Radius& radius = tree.hierarchy.radii[r];
+    return (radius.flags & Radius::terminal) != 0 && radius.child_count > 0;
+  });
+}
+
 Ladder climb(const Tree& tree, const std::vector<Double3>& centres, const PartTriangles& trunk,
              const LimbChain& limb, std::uint32_t number, const std::vector<std::uint8_t>& forks,
              const TrunkRadiiOptions& options, Pieces& pieces) {
@@ -272,7 +279,8 @@ Ladder climb(const Tree& tree, const std::vector<Double3>& centres, const PartTr
   for (std::size_t i = 0; i < shape.ring_count(); ++i)
     ladder.thickest = std::max(ladder.thickest, shape.ring(i).radius);
   if (ladder.full == 0) return ladder;
-  ladder.rungs = limb_ladder(shape, forks, ladder.full, options.vanish, options.order);
+  const double vanish = bears_leaves(tree, limb) ? options.vanish_with_leaves : options.vanish;
+  ladder.rungs = limb_ladder(shape, forks, ladder.full, vanish, options.order);
   for (std::uint32_t r = 0; r < ladder.rungs.size(); ++r) {
     tubes.take(ladder.rungs[r], r + 1);
     ladder.rungs[r].kept = {};

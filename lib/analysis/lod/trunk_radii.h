@@ -12,6 +12,9 @@ namespace copse {
 struct TrunkRadiiOptions {
   // What a limb that vanishes costs, in what a limb that shrinks to its axis costs.
   double vanish = 6;
+  // The same of a limb that bears leaves: they would hang in the air, so as long as it is there the leaves
+  // may stay as they are.
+  double vanish_with_leaves = 30;
   // Which rings of a limb go first. By diameter, limbs go thinnest first too (table 5.1); otherwise all limbs
   // share one order by cost a triangle.
   RemovalOrder order = RemovalOrder::silhouette;
