@@ -3,6 +3,8 @@
 #include "lib/analysis/surface/components.h"
 #include "tests/trunk/welded_meshes.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace copse {
@@ -19,6 +21,23 @@ void expect_sound(const Surface& s, const CurveSkeleton& k) {
   }
   ASSERT_EQ(k.node_of.size(), s.positions.size());
   for (const auto n : k.node_of) EXPECT_LT(n, k.points.size());
+}
+
+// The triangles of each connected piece.
+std::vector<std::vector<std::uint32_t>> parts_of(const TrunkMesh& mesh) {
+  const Components parts = connected_components(mesh.triangles);
+  std::vector<std::vector<std::uint32_t>> triangles(parts.count);
+  for (std::uint32_t t = 0; t < parts.of.size(); ++t) triangles[parts.of[t]].push_back(t);
+  return triangles;
+}
+
+TEST(FlowSkeleton, ClosesAWideHoleByAVertexInItsMiddle) {
+  std::vector<Double3> axis;
+  for (int i = 0; i <= 8; ++i) axis.push_back({0, 0.5 * i, 0});
+  const Surface s = surface_of(tube(axis, std::vector<double>(9, 0.5), 200, false));
+  const CurveSkeleton k = flow_skeleton(s);
+  expect_sound(s, k);
+  for (const Double3& p : k.points) EXPECT_LT(std::hypot(p.x, p.z), 0.1);
 }
 
 TEST(FlowSkeleton, ClosesAnOpenTubeAndLiesOnItsAxis) {
@@ -52,7 +71,7 @@ TEST(FlowSkeleton, OfWhatEnclosesNothingIsEmpty) {
 TEST(FlowSkeleton, OfAnythingIsSoundOrEmpty) {
   for (std::uint32_t seed = 0; seed < 12; ++seed) {
     const TrunkMesh soup = random_soup(9, 20, seed);
-    const Surface s = make_surface(soup, first_component(soup));
+    const Surface s = make_surface(soup, parts_of(soup)[0]);
     const CurveSkeleton k = flow_skeleton(s);
     if (!k.points.empty()) expect_sound(s, k);
   }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -158,6 +159,32 @@ TEST(Welded, OfAnythingIsSound) {
     }
   }
   EXPECT_TRUE(recover_welded(TrunkMesh{}, {}).radii.empty());
+}
+
+// Cells that touch in edges and corners, with faces missing: holes of every shape, all of whose corners lie
+// on spheres and planes, where a rounded predicate contradicts itself.
+TEST(Welded, OfTornCellsEndsAndIsSound) {
+  for (std::uint32_t seed = 0; seed < 16; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<Cell> cells;
+    Cell at{0, 0, 0};
+    for (std::uint32_t i = 0; i < 8 + seed; ++i) {
+      cells.push_back(at);
+      if (random() % 4 == 0) at = cells[random() % cells.size()];
+      const int step = random() % 5 == 0 ? -1 : 1;
+      (random() % 3 == 0 ? at.x : random() % 2 == 0 ? at.y : at.z) += step;
+    }
+    TrunkMesh mesh = smooth_cells(cells, 0);
+    std::erase_if(mesh.triangles, [&](const Triangle&) { return random() % 8 == 0; });
+    const auto triangles = largest_component(mesh);
+    std::vector<Triangle> kept;
+    for (const std::uint32_t t : triangles) kept.push_back(mesh.triangles[t]);
+    mesh.triangles = kept;
+    const SurfaceMethod methods[] = {SurfaceMethod::flow, SurfaceMethod::automatic};
+    const Hierarchy h =
+        recover_welded(mesh, all_triangles(mesh), {WeldedMethod::automatic, methods[seed % 2]});
+    EXPECT_EQ(breach(h, mesh.positions.size(), mesh.triangles.size()), "") << seed;
+  }
 }
 
 TEST(Welded, OfSharpAndFlatAndFarMeshesIsSound) {

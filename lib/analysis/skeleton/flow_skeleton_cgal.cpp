@@ -10,6 +10,7 @@
 #include <exception>
 #include <numeric>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mean_curvature_flow_skeletonization.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -17,17 +18,18 @@
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
 namespace copse {
 
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Simple_cartesian<double>;
+// Holes are filled along a Delaunay triangulation, which walks in circles when its predicates are rounded.
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using ClosedMesh = CGAL::Surface_mesh<Point>;
 using Flow = CGAL::Mean_curvature_flow_skeletonization<ClosedMesh>;
@@ -105,12 +107,28 @@ std::vector<ClosedMesh> separate(const Soup& soup) {
   return meshes;
 }
 
+// Triangles across a border of few vertices; a vertex in the middle of one of many, or where that fails.
+void fill_holes(ClosedMesh& mesh) {
+  std::vector<ClosedMesh::Halfedge_index> borders;
+  PMP::extract_boundary_cycles(mesh, std::back_inserter(borders));
+  for (const auto h : borders) {
+    const auto around = CGAL::halfedges_around_face(h, mesh);
+    CGAL::Vector_3<Kernel> sum(0, 0, 0);
+    std::size_t count = 0;
+    for (const auto e : around) sum += mesh.point(mesh.target(e)) - CGAL::ORIGIN, ++count;
+    std::vector<ClosedMesh::Face_index> made;
+    if (count <= k_widest_hole) PMP::triangulate_hole(mesh, h, std::back_inserter(made));
+    if (!made.empty()) continue;
+    CGAL::Euler::fill_hole(h, mesh);
+    const auto spoke = CGAL::Euler::add_center_vertex(h, mesh);
+    mesh.point(mesh.target(spoke)) = CGAL::ORIGIN + sum / static_cast<double>(count);
+  }
+}
+
 // Fills the borders, turns the mesh inside in, thins it out to what the flow can carry, and cuts long edges,
 // as skeleton points come from vertices. False when that does not give a closed mesh with something inside.
 bool close(ClosedMesh& mesh) {
-  std::vector<ClosedMesh::Halfedge_index> borders;
-  PMP::extract_boundary_cycles(mesh, std::back_inserter(borders));
-  for (const auto h : borders) PMP::triangulate_hole(mesh, h, CGAL::Emptyset_iterator());
+  fill_holes(mesh);
   if (mesh.number_of_faces() < 4 || !CGAL::is_closed(mesh)) return false;
   const double volume = PMP::volume(mesh);
   if (volume < 0) PMP::reverse_face_orientations(mesh);

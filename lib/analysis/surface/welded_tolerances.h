@@ -126,6 +126,8 @@ inline constexpr std::size_t k_flow_triangles = 8000;
 // Triangles: the long edges of a piece of fewer are cut: the flow needs vertices round a limb to find its
 // middle.
 inline constexpr std::size_t k_flow_triangles_at_least = 2000;
+// Vertices: wider holes are closed by a vertex in their middle. Closing without one costs the cube.
+inline constexpr std::size_t k_widest_hole = 128;
 
 // --- implied_rings
 
