@@ -11,6 +11,7 @@ namespace copse {
 namespace {
 
 struct Started {
+  Started() = default;
   explicit Started(const TubeShape& shape) {
     TubeMaker maker;
     maker.add(shape);
@@ -86,6 +87,44 @@ TEST(RingStarts, StartStripsAtTheirEars) {
     std::ranges::sort(r);
     return r == std::vector<std::uint32_t>{0, 1};
   }));
+}
+
+// Triangles with these corners, as they are.
+Started started(std::size_t vertices, std::vector<Triangle> triangles) {
+  Started all;
+  all.trunk.positions.assign(vertices, {});
+  all.trunk.triangles = std::move(triangles);
+  all.fans = make_fans(vertices, all.trunk.triangles);
+  all.vertices.resize(vertices);
+  std::iota(all.vertices.begin(), all.vertices.end(), 0u);
+  return all;
+}
+
+// Pages on one edge, each with a loop that touches the others at both its ends; or a disc with one hub.
+TEST(RingStarts, LookAtEachEdgeOfALargeFanOnce) {
+  for (const std::uint32_t n : {1000u, 100000u}) {
+    std::vector<Triangle> pages, disc;
+    for (std::uint32_t i = 0; i < n; ++i) pages.push_back({0, 1, i + 2});
+    for (std::uint32_t i = 0; i < n; ++i) disc.push_back({0, i + 1, (i + 1) % n + 1});
+    const Started book = started(n + 2, std::move(pages)), wheel = started(n + 1, std::move(disc));
+    RingStarts of_book(book.trunk, book.fans), of_wheel(wheel.trunk, wheel.fans);
+    EXPECT_TRUE(of_book.loops(book.vertices).empty());
+    EXPECT_EQ(of_wheel.loops(wheel.vertices).size(), 1u);
+    EXPECT_EQ(of_book.edges_looked_at(), 6 * n);
+    EXPECT_EQ(of_wheel.edges_looked_at(), 6 * n);
+  }
+}
+
+// Two strips that touch in vertex 0: the long boundary that leads there is walked once, from whichever
+// vertex.
+TEST(RingStarts, GiveUpAWayThatTouchesItselfForAllItsVertices) {
+  const std::uint32_t n = 200000;
+  std::vector<Triangle> strip;
+  for (std::uint32_t i = 0; i + 2 < n; ++i) strip.push_back({i, i + 1, i + 2});
+  strip.push_back({0, n, n + 1});
+  const Started touching = started(n + 2, std::move(strip));
+  RingStarts starts(touching.trunk, touching.fans);
+  EXPECT_TRUE(starts.loops(touching.vertices).empty());
 }
 
 }  // namespace

@@ -8,7 +8,10 @@
 namespace copse {
 
 RingStarts::RingStarts(const TrunkMesh& mesh, const Fans& fans)
-    : mesh_(mesh), fans_(fans), local_(mesh.triangles.size()) {}
+    : mesh_(mesh),
+      fans_(fans),
+      local_(mesh.triangles.size()),
+      boundary_(mesh.positions.size(), k_not_looked) {}
 
 void RingStarts::sides_at(std::uint32_t vertex) {
   sides_.clear();
@@ -17,21 +20,27 @@ void RingStarts::sides_at(std::uint32_t vertex) {
       if (v != vertex) sides_.push_back({v, t});
     }
   }
+  looked_at_ += sides_.size();
   std::ranges::sort(sides_);
 }
 
-std::array<std::uint32_t, 2> RingStarts::boundary_neighbours(std::uint32_t vertex) {
+RingStarts::Pair RingStarts::boundary_neighbours(std::uint32_t vertex) {
+  if (boundary_[vertex] == k_not_looked) boundary_[vertex] = look_for_boundary(vertex);
+  return boundary_[vertex];
+}
+
+RingStarts::Pair RingStarts::look_for_boundary(std::uint32_t vertex) {
   sides_at(vertex);
-  std::array<std::uint32_t, 2> found{k_none, k_none};
+  Pair found = k_no_boundary;
   std::size_t count = 0;
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const bool alone = (i == 0 || sides_[i - 1].neighbour != sides_[i].neighbour) &&
                        (i + 1 == sides_.size() || sides_[i + 1].neighbour != sides_[i].neighbour);
     if (!alone) continue;
-    if (count == 2) return {k_none, k_none};
+    if (count == 2) return k_no_boundary;
     found[count++] = sides_[i].neighbour;
   }
-  return count == 2 ? found : std::array<std::uint32_t, 2>{k_none, k_none};
+  return count == 2 ? found : k_no_boundary;
 }
 
 std::uint32_t RingStarts::first_on_boundary(std::span<const std::uint32_t> vertices) {
@@ -43,16 +52,25 @@ std::uint32_t RingStarts::first_on_boundary(std::span<const std::uint32_t> verti
 
 RingStarts::Ring RingStarts::loop_through(std::uint32_t vertex) {
   Ring loop;
+  return follow(
+             vertex, [](std::uint32_t) { return false; }, loop)
+             ? loop
+             : Ring{};
+}
+
+template <class GivenUp>
+bool RingStarts::follow(std::uint32_t vertex, const GivenUp& given_up, Ring& way) {
+  way.clear();
   std::uint32_t previous = k_none, current = vertex;
   do {
     const auto [a, b] = boundary_neighbours(current);
-    if (a == k_none) return {};  // loops touch here
-    loop.push_back(current);
+    if (a == k_none || given_up(current)) return false;  // loops touch here, or where this leads
+    way.push_back(current);
     const std::uint32_t next = a == previous ? b : a;
     previous = current;
     current = next;
   } while (current != vertex);
-  return loop;
+  return true;
 }
 
 std::vector<RingStarts::Ring> RingStarts::loops(std::span<const std::uint32_t> vertices) {
@@ -62,15 +80,18 @@ std::vector<RingStarts::Ring> RingStarts::loops(std::span<const std::uint32_t> v
     if (boundary_neighbours(v)[0] == k_none) continue;
     seen.push_back(v);
   }
-  // Every loop is found once from each of its vertices; keep it at the lowest.
+  // Every loop is found once from each of its vertices; keep it at the lowest. A way that leads to where
+  // loops touch leads there from each of its vertices too.
   std::vector<std::uint8_t> done(seen.size(), 0);
+  const auto is_done = [&](std::uint32_t v) -> std::uint8_t& {
+    return done[static_cast<std::size_t>(std::ranges::lower_bound(seen, v) - seen.begin())];
+  };
+  Ring way;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (done[i]) continue;
-    Ring loop = loop_through(seen[i]);
-    for (const std::uint32_t v : loop) {
-      done[static_cast<std::size_t>(std::ranges::lower_bound(seen, v) - seen.begin())] = 1;
-    }
-    if (!loop.empty()) found.push_back(std::move(loop));
+    const bool is_loop = follow(seen[i], is_done, way);
+    for (const std::uint32_t v : way) is_done(v) = 1;
+    if (is_loop) found.push_back(way);
   }
   return found;
 }

@@ -38,20 +38,33 @@ class RingStarts {
   // The rungs and points that a strip (a disc without inner vertices) may start with.
   std::vector<Ring> rungs(std::span<const std::uint32_t> vertices) const;
 
+  // The edges that have been looked at so far, each once a vertex and triangle: the work that was done.
+  std::size_t edges_looked_at() const { return looked_at_; }
+
  private:
   struct Side {
     std::uint32_t neighbour, triangle;
     friend auto operator<=>(const Side&, const Side&) = default;
   };
+  using Pair = std::array<std::uint32_t, 2>;
   // (neighbour, triangle) of every edge at the vertex, sorted.
   void sides_at(std::uint32_t vertex);
-  // The two ends of the boundary edges at the vertex; {k_none, k_none} unless there are exactly two.
-  std::array<std::uint32_t, 2> boundary_neighbours(std::uint32_t vertex);
+  // The two ends of the boundary edges at the vertex; k_no_boundary unless there are exactly two. Each fan is
+  // looked at once: many loops may ask for the hub of a large one.
+  Pair boundary_neighbours(std::uint32_t vertex);
+  Pair look_for_boundary(std::uint32_t vertex);
+  // The boundary from a vertex on, up to what was given up; whether it comes back to the vertex.
+  template <class GivenUp>
+  bool follow(std::uint32_t vertex, const GivenUp& given_up, Ring& way);
+
+  static constexpr Pair k_no_boundary{k_none, k_none}, k_not_looked{k_none, 0};
 
   const TrunkMesh& mesh_;
   const Fans& fans_;
   std::vector<Side> sides_;
   std::vector<std::uint32_t> local_;  // scratch: one a triangle
+  std::vector<Pair> boundary_;        // one a vertex
+  std::size_t looked_at_ = 0;
 };
 
 }  // namespace copse
