@@ -223,14 +223,32 @@ TEST_F(Treeprep, PreparesAVineOfAHundredThousandSegments) {
 
 TEST_F(Treeprep, HelpNamesEveryOption) {
   const std::string help = run_process({"treeprep", "--help"}, {"COLUMNS=100"}).out;
-  for (const char* option :
-       {"--up y|z", "--scale N", "--weld EPS", "--strict", "--trunk PATTERN", "--leaf PATTERN",
-        "--skeleton auto|rings|surface", "--max-leaf-groups N", "--leaf-order group|terminal|random",
-        "--omit PART", "--only PART", "--compress none|zstd", "--report FILE"}) {
+  for (const char* option : {"--up y|z", "--scale N", "--weld EPS", "--strict", "--trunk PATTERN",
+                             "--leaf PATTERN", "--skeleton auto|rings|surface", "--root X,Y,Z",
+                             "--max-leaf-groups N", "--leaf-order group|terminal|random", "--omit PART",
+                             "--only PART", "--compress none|zstd", "--report FILE"}) {
     EXPECT_NE(help.find(option), std::string::npos) << option << "\n" << help;
   }
   EXPECT_EQ(help.find("[-1]"), std::string::npos) << help;  // what stands for "none" inside is no default
   EXPECT_NE(help.find(" leaf-normals: normals of the leaves\n"), std::string::npos) << help;
+}
+
+TEST_F(Treeprep, BeginsWhereItIsTold) {
+  const std::string mesh = input(little_tree_obj());
+  ASSERT_EQ(prepare(mesh, {"--root", "-0.5,9,0"}).status, 0);
+  EXPECT_LT(distance(absolute_centres(tree())[0], {0, 3, 0}), 1e-6);
+  EXPECT_EQ(tree().header.roots, 1u);
+  ASSERT_EQ(prepare(mesh, {"--root", "0,3,0", "--root", "0,-1,0"}).status, 0);  // one limb has one root
+  EXPECT_LT(distance(absolute_centres(tree())[0], {0, 3, 0}), 1e-6);
+}
+
+TEST_F(Treeprep, RefusesRootsThatAreNoPoints) {
+  const std::string mesh = input(little_tree_obj());
+  for (const std::string value : {"", "1,2", "1,2,3,4", "1,2,nan", "1,2,inf", "1;2;3", "1,2,", "a,b,c"}) {
+    const Outcome o = prepare(mesh, {"--root=" + value});
+    expect_refused(o, 2, "--root");
+    EXPECT_EQ(line_count(o.err), 1u) << o.err;
+  }
 }
 
 TEST_F(Treeprep, RefusesNumbersThatAreNone) {

@@ -2,6 +2,9 @@
 
 #include "lib/analysis/trunk/recover.h"
 #include "tests/trunk/tube_maker.h"
+#include "tests/trunk/welded_meshes.h"
+
+#include <algorithm>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +67,96 @@ TEST(Root, TheGroundRuleMeansNothingInAModelThatIsCentredOnTheOrigin) {
   const Hierarchy h = recover_hierarchy(make_trunk_mesh(maker.mesh, all_trunk(maker.mesh)));
   EXPECT_EQ(roots(h), 1);
   EXPECT_NEAR(h.radii[0].centre.y, -5, 1e-12);
+}
+
+TubeShape trunk_of(const Double3& from, const Double3& to, double thick, double thin, int rings = 8) {
+  TubeShape shape;
+  shape.axis = axis_between(from, to, rings);
+  shape.radius = taper_between(thick, thin, rings);
+  return shape;
+}
+
+Hierarchy recover(const TubeMaker& maker, const std::vector<Double3>& roots = {}) {
+  return recover_hierarchy(make_trunk_mesh(maker.mesh, all_trunk(maker.mesh)), {.roots = roots});
+}
+
+// A cactus, a bottle tree, a lollipop.
+TEST(Root, ATrunkThatWidensUpwardStandsOnItsLowerEnd) {
+  for (const double y : {-0.3, 0.0, 7.0}) {
+    for (const int rings : {2, 8}) {
+      TubeMaker maker;
+      maker.add(trunk_of({0, y, 0}, {0, y + 4, 0}, 0.1, 0.28, rings));
+      maker.add(trunk_of({0, y + 2, 0}, {1, y + 3, 0}, 0.05, 0.09));
+      maker.add(trunk_of({0, y + 3.9, 0}, {1, y + 4.5, 0}, 0.06, 0.02));  // from the top
+      const Hierarchy h = recover(maker);
+      EXPECT_EQ(roots(h), 1);
+      EXPECT_NEAR(h.radii[0].centre.y, y, 1e-12) << rings;
+    }
+  }
+}
+
+TEST(Root, WhatHangsDownFromTheGroundBeginsAtItsThickEnd) {
+  TubeMaker maker;
+  maker.add(trunk_of({0, 0, 0}, {0, -4, 0}, 0.3, 0.05));
+  EXPECT_NEAR(recover(maker).radii[0].centre.y, 0, 1e-12);
+}
+
+TEST(Root, ALogThatLiesBeginsAtItsThickEnd) {
+  TubeMaker maker;
+  maker.add(trunk_of({0, 0.31, 0}, {6, 0.3, 0}, 0.3, 0.28));
+  EXPECT_NEAR(recover(maker).radii[0].centre.x, 0, 1e-12);
+}
+
+TEST(Root, ABranchThatFloatsALittleBeginsAtItsThickEndHoweverItHangs) {
+  TubeMaker maker;
+  maker.add(trunk_of({0, -0.1, 0}, {0, 6, 0}, 0.3, 0.1));
+  maker.add(trunk_of({0.45, 4, 0}, {3, 2, 0}, 0.08, 0.02));
+  const Hierarchy h = recover(maker);
+  EXPECT_EQ(roots(h), 1);
+  const auto joint = std::ranges::find(h.radii, true, &RadiusNode::joint);
+  ASSERT_NE(joint, h.radii.end());
+  EXPECT_NEAR(joint->centre.x, 0.45, 1e-12);
+}
+
+// Eleven cells high, with arms as thick as the trunk.
+TEST(Root, AWeldedTreeOfEvenThicknessStandsOnItsLowestEnd) {
+  for (const double y : {0.0, -0.5, 20.0}) {
+    TrunkMesh mesh = smooth_cells(std::vector<Cell>{{0, 0, 0},
+                                                    {0, 1, 0},
+                                                    {0, 2, 0},
+                                                    {0, 3, 0},
+                                                    {0, 4, 0},
+                                                    {0, 5, 0},
+                                                    {1, 3, 0},
+                                                    {2, 3, 0},
+                                                    {2, 2, 0},
+                                                    {-1, 5, 0},
+                                                    {-2, 5, 0},
+                                                    {0, 4, 1},
+                                                    {0, 4, 2}},
+                                  0);
+    for (Double3& p : mesh.positions) p.y += y;
+    const Hierarchy h = recover_hierarchy(mesh);
+    EXPECT_EQ(roots(h), 1);
+    EXPECT_NEAR(h.radii[0].centre.y, y, 1e-12);
+    EXPECT_NEAR(h.radii[0].centre.x, 0.5, 1e-12);
+  }
+}
+
+TEST(Root, IsWhereItIsSaidToBe) {
+  TubeMaker maker;
+  maker.add(trunk_of({0, -0.1, 0}, {0, 6, 0}, 0.3, 0.1));
+  maker.add(trunk_of({9, -0.1, 0}, {9, 6, 0}, 0.3, 0.1));
+  maker.add(
+      trunk_of({0.31, -0.2, 0}, {3, 3, 0}, 0.06, 0.02));  // stands in the ground, but sprouts from the first
+  EXPECT_EQ(roots(recover(maker)), 3);
+  const Hierarchy h = recover(maker, {{0, 8, 0}, {9, 0, 1}});
+  EXPECT_EQ(roots(h), 2);
+  EXPECT_NEAR(h.radii[0].centre.y, 6, 1e-12);
+  const Hierarchy twice = recover(maker, {{0, 8, 0}, {0, 0, 0}});
+  EXPECT_NEAR(twice.radii[0].centre.y, 6, 1e-12);
+  EXPECT_TRUE(std::ranges::any_of(
+      twice.notes, [](const std::string& n) { return n.find("root 0,0,0") != std::string::npos; }));
 }
 
 }  // namespace

@@ -6,11 +6,48 @@
 #include "tools/treeprep/parts.h"
 #include "tools/treeprep/run.h"
 
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
 #include <CLI/CLI.hpp>
 
 namespace copse::treeprep {
 
 namespace {
+
+// "X,Y,Z"
+std::optional<Double3> point_in(std::string_view text) {
+  Double3 p;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (double* c : {&p.x, &p.y, &p.z}) {
+    if (c != &p.x && (at == end || *at++ != ',')) return std::nullopt;
+    const auto [next, error] = std::from_chars(at, end, *c);
+    if (error != std::errc{} || !std::isfinite(*c)) return std::nullopt;
+    at = next;
+  }
+  if (at != end) return std::nullopt;
+  return p;
+}
+
+void add_root_option(CLI::Option_group& group, std::vector<Double3>& roots) {
+  const auto set = [&roots](const std::vector<std::string>& points) {
+    for (const std::string& p : points) roots.push_back(*point_in(p));
+  };
+  const auto check = [](const std::string& text) -> std::string {
+    return point_in(text) ? "" : "'" + text + "' is not a point: write X,Y,Z in metres";
+  };
+  group
+      .add_option_function<std::vector<std::string>>(
+          "--root", set,
+          "where a tree begins: at the end of the trunk nearest to this point of the finished tree (Y up, "
+          "metres), whatever lies lower or is thicker; one for each tree of the mesh")
+      ->check(CLI::Validator(check, "", ""))
+      ->allow_extra_args(false)
+      ->type_name("X,Y,Z");
+}
 
 std::vector<Limit> limits() {
   std::vector<Limit> all{{"extent of a tree", static_cast<std::uint64_t>(k_largest_extent), "m"}};
@@ -74,6 +111,7 @@ void add_options(CLI::App& app, Options& options) {
       *parts, "--skeleton", options.skeleton,
       "how the hierarchy is recovered: from rings, from the surface, or as fits",
       {{"auto", Skeleton::automatic}, {"rings", Skeleton::rings}, {"surface", Skeleton::surface}});
+  add_root_option(*parts, options.roots);
   parts
       ->add_option("--max-leaf-groups", options.max_leaf_groups,
                    "merge the smallest leaf groups until there are at most N")

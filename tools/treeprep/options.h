@@ -4,6 +4,7 @@
 #include "lib/analysis/trunk/recover.h"
 #include "lib/formats/mesh.h"
 #include "lib/formats/tree_file.h"
+#include "lib/formats/vec.h"
 #include "tools/common/tool.h"
 
 #include <filesystem>
@@ -21,6 +22,7 @@ struct Options {
   std::vector<std::string> trunk_patterns, leaf_patterns;
   bool strict = false;
   Skeleton skeleton = Skeleton::automatic;
+  std::vector<Double3> roots;         // where trees begin, metres, Y up; empty: it decides
   std::uint32_t max_leaf_groups = 0;  // 0: as many as there are terminal radii with leaves
   LeafOrder leaf_order = LeafOrder::group;
   double weld = -1;  // share of the bounding box's diagonal; negative: place by place (trunk/tolerances.h)

@@ -19,6 +19,7 @@ nlohmann::ordered_json options_json(const Options& options, std::uint64_t seed) 
   if (!options.leaf_patterns.empty()) out["leaf"] = options.leaf_patterns;
   if (options.skeleton != Skeleton::automatic)
     out["skeleton"] = k_skeletons[static_cast<int>(options.skeleton)];
+  for (const Double3& p : options.roots) out["roots"].push_back({p.x, p.y, p.z});
   if (options.max_leaf_groups > 0) out["max-leaf-groups"] = options.max_leaf_groups;
   if (options.leaf_order != LeafOrder::group)
     out["leaf-order"] = k_orders[static_cast<int>(options.leaf_order)];

@@ -69,7 +69,7 @@ TrunkMesh weld_stage(const Input& input, const Classification& classes, const Op
 Hierarchy skeleton_stage(const TrunkMesh& trunk, const Options& options, Context& context) {
   Stage stage = context.stage("skeleton");
   stage.items(trunk.triangles.size(), "trunk triangles");
-  Hierarchy hierarchy = recover_hierarchy(trunk, {.skeleton = options.skeleton});
+  Hierarchy hierarchy = recover_hierarchy(trunk, {.skeleton = options.skeleton, .roots = options.roots});
   add_lone_segment(trunk, hierarchy);
   return hierarchy;
 }

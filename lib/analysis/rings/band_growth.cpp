@@ -1,5 +1,6 @@
 #include "lib/analysis/rings/band_growth.h"
 
+#include "lib/analysis/surface/tolerances.h"
 #include "lib/analysis/surface/welded_tolerances.h"
 
 #include <algorithm>
@@ -223,7 +224,28 @@ bool BandGrowth::is_point(std::uint32_t v, const Fan& fan, Points which) {
   std::uint64_t degrees = 0;
   for (const std::uint32_t x : fan.link) degrees += degree_[x];
   return degree_[v] == fan.link.size() && degrees == 5 * fan.link.size() && is_round(fan.link) &&
-         continues_behind(fan, rings);
+         continues_behind(fan, rings) && !is_lid_corner(v);
+}
+
+// Whether a lid fans out from this corner. What lies round such a corner, across the lid and down the side,
+// looks like a ring round a blunt point, and the slanted rings behind it like a tube.
+bool BandGrowth::is_lid_corner(std::uint32_t v) {
+  if (lid_corner_.empty()) {
+    lid_corner_.assign(surface_.positions.size(), 0);
+    std::vector<std::uint32_t> corners;
+    for (const Lid& lid : lids_of(k_lid_smooth_cosines[0])) {
+      if (lid.middle != k_none) continue;
+      corners.clear();
+      for (const std::uint32_t t : lid.triangles) {
+        corners.insert(corners.end(), triangles_[t].begin(), triangles_[t].end());
+      }
+      std::ranges::sort(corners);
+      for (std::size_t i = 1; i < corners.size(); ++i) {
+        if (corners[i] == corners[i - 1]) lid_corner_[corners[i]] = 1;
+      }
+    }
+  }
+  return lid_corner_[v] != 0;
 }
 
 void BandGrowth::read_fan(std::uint32_t v, const Fan& fan) {

@@ -96,6 +96,7 @@ class BandGrowth {
   void read_regular();
   bool collect_fan(std::uint32_t v, std::uint32_t t, Fan& fan);
   bool is_point(std::uint32_t v, const Fan& fan, Points which);
+  bool is_lid_corner(std::uint32_t v);
   void read_fan(std::uint32_t v, const Fan& fan);
   std::vector<Lid>& lids_of(double smooth);
   bool is_round(std::span<const std::uint32_t> ring) const;
@@ -131,6 +132,8 @@ class BandGrowth {
   std::priority_queue<Parked, std::vector<Parked>, std::greater<>> parked_;
   Step step_;
   std::vector<std::pair<double, std::vector<Lid>>> lids_;  // by angle
+  std::vector<std::uint8_t>
+      lid_corner_;  // one a vertex: whether two triangles of a lid meet there; or none yet
 };
 
 }  // namespace copse

@@ -79,6 +79,28 @@ std::size_t RingReader::pointed_ends() const {
   return pointed;
 }
 
+// Whether every ring of more than two vertices is a regular polygon: true rings of most generators are, and
+// rings that are read across the sides of a tube are not.
+bool RingReader::is_regular() const {
+  const RingTree& rings = front_.rings();
+  const auto is_regular_ring = [&](std::span<const std::uint32_t> ring) {
+    const RingMeasure m = measure_ring(mesh_.positions, ring);
+    const double tolerance = k_regular_ring * m.diameter / 2;
+    const auto edge = [&](std::size_t i) {
+      return distance(mesh_.positions[ring[i]], mesh_.positions[ring[(i + 1) % ring.size()]]);
+    };
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      if (std::abs(distance(mesh_.positions[ring[i]], m.centre) - m.diameter / 2) > tolerance) return false;
+      if (std::abs(edge(i) - edge(0)) > tolerance) return false;
+    }
+    return true;
+  };
+  for (std::uint32_t r = 0; r < rings.size(); ++r) {
+    if (rings.ring(r).size() > 2 && !is_regular_ring(rings.ring(r))) return false;
+  }
+  return true;
+}
+
 bool RingReader::closes_flat(std::uint32_t point, std::span<const std::uint32_t> ring) const {
   const RingMeasure m = measure_ring(mesh_.positions, ring);
   return distance(mesh_.positions[point], m.centre) <= k_lid_height * m.diameter / 2;
@@ -102,13 +124,13 @@ void RingReader::try_starts(std::span<const RingStarts::Ring> starts, RingSizes 
     r.start = start;
     if (is_strip) r.oblique = obliqueness();
     if (!is_strip) r.pointed = pointed_ends();
-    r.rank = {is_strip && has_foot(), slenderness() / static_cast<double>(1 + r.pointed)};
+    r.rank = {is_strip ? has_foot() : is_regular(), slenderness() / static_cast<double>(1 + r.pointed)};
   }
 }
 
 // Leaves the best of the readings in front_; the first of equals. Best is, of strips, the squarest; of those
-// that are about as square, one that stands with a foot in the ground; then the most slender, where every end
-// that is not flat must be made up for by length.
+// that are about as square, one that stands with a foot in the ground; of tubes, one whose rings are regular;
+// then the most slender, where every end that is not flat must be made up for by length.
 bool RingReader::read_best(std::span<const Reading> readings, RingSizes sizes) {
   if (readings.empty()) return false;
   const double squarest = std::ranges::min(readings, {}, &Reading::oblique).oblique;

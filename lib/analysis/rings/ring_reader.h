@@ -15,7 +15,8 @@ namespace copse {
 // Tubes of k-gons whose quads are cut in any way; ends open, closed by a lid with or without a centre, or
 // collapsed to a point; seams (the mesh is welded); rings that several tubes share; k constant or not;
 // strips (k = 2), double-sided or not. Topology decides; where it leaves a choice (a box can be read along
-// three axes) the longest and thinnest reading is taken. Everything else is left to recover_welded().
+// three axes) one whose rings are all regular polygons is taken, then the longest and thinnest. Everything
+// else is left to recover_welded().
 class RingReader {
  public:
   RingReader(const TrunkMesh& mesh, const Fans& fans);
@@ -42,6 +43,7 @@ class RingReader {
   double slenderness() const;
   double obliqueness() const;
   bool has_foot() const;
+  bool is_regular() const;
   std::size_t pointed_ends() const;
   bool closes_flat(std::uint32_t point, std::span<const std::uint32_t> ring) const;
   bool is_flat(std::span<const std::uint32_t> ring) const;

@@ -4,6 +4,7 @@
 #include "lib/analysis/surface/welded_tolerances.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -77,14 +78,16 @@ class RingWalk {
     double widest = std::numeric_limits<double>::min();
     for (const RingCircle& c : g_.circle) box.grow(c.centre), widest = std::max(widest, c.radius);
     const double height = std::max(box.extent().y, std::numeric_limits<double>::min());
+    using Rank = std::array<double, 4>;  // higher is better
     std::uint32_t best = k_none;
-    double best_score = -std::numeric_limits<double>::infinity();
+    Rank best_rank{};
     for (std::uint32_t n = 0; n < g_.nodes(); ++n) {
       if (is_point(n)) continue;
       const RingCircle& c = g_.circle[n];
       const double score =
           c.radius / widest - k_lowness * (c.centre.y - box.min.y) / height - root_penalty(n);
-      if (score > best_score) best_score = score, best = n;
+      const Rank rank{score, c.radius, -c.centre.x, -c.centre.z};
+      if (best == k_none || rank > best_rank) best_rank = rank, best = n;
     }
     return best;
   }

@@ -14,23 +14,6 @@ bool is_blunt(const Limbs& limbs, std::uint32_t point, std::uint32_t ring) {
   return distance(limbs.centre[point], limbs.centre[ring]) <= k_blunt_point * limbs.diameter[ring];
 }
 
-// The thickness of each end: its own, or of the ring that it closes.
-std::vector<double> end_thickness(const Limbs& limbs, std::span<const std::uint32_t> ends) {
-  std::vector<double> thickness(limbs.rings(), 0);
-  for (const std::uint32_t e : ends) {
-    const std::uint32_t p = limbs.parent_of(e);
-    thickness[e] = limbs.diameter[e];
-    if (limbs.diameter[e] == 0 && p != k_none && is_blunt(limbs, e, p)) thickness[e] = limbs.diameter[p];
-  }
-  for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
-    if (limbs.merged_into[r] != k_none || limbs.parent[r] == k_none) continue;
-    const std::uint32_t p = limbs.parent_of(r);
-    if (limbs.diameter[p] == 0 && is_blunt(limbs, p, r))
-      thickness[p] = std::max(thickness[p], limbs.diameter[r]);
-  }
-  return thickness;
-}
-
 // What a limb with two ends does on the way from its first end to its second.
 struct Profile {
   std::array<std::uint32_t, 2> end{k_none, k_none};
@@ -53,6 +36,22 @@ void add_steps(const Limbs& limbs, Profile& profile, int end) {
 }
 
 }  // namespace
+
+std::vector<double> end_thickness(const Limbs& limbs, std::span<const std::uint32_t> ends) {
+  std::vector<double> thickness(limbs.rings(), 0);
+  for (const std::uint32_t e : ends) {
+    const std::uint32_t p = limbs.parent_of(e);
+    thickness[e] = limbs.diameter[e];
+    if (limbs.diameter[e] == 0 && p != k_none && is_blunt(limbs, e, p)) thickness[e] = limbs.diameter[p];
+  }
+  for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
+    if (limbs.merged_into[r] != k_none || limbs.parent[r] == k_none) continue;
+    const std::uint32_t p = limbs.parent_of(r);
+    if (limbs.diameter[p] == 0 && is_blunt(limbs, p, r))
+      thickness[p] = std::max(thickness[p], limbs.diameter[r]);
+  }
+  return thickness;
+}
 
 std::vector<std::uint32_t> end_rings(const Limbs& limbs) {
   std::vector<std::uint32_t> neighbours(limbs.rings(), 0);

@@ -5,6 +5,7 @@
 #include "lib/formats/material.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -81,12 +82,16 @@ class LimbFinder {
       widest = std::max(widest, k_.radii[v]);
     }
     const double height = std::max(box.extent().y, std::numeric_limits<double>::min());
-    std::uint32_t best = 0;
-    double best_score = -std::numeric_limits<double>::infinity();
+    using Rank = std::array<double, 4>;  // higher is better
+    std::uint32_t best = k_none;
+    Rank best_rank{};
     for (std::uint32_t v = 0; v < n_; ++v) {
       if (neighbours_[v].size() > 1 && v != k_.base) continue;
-      const double score = thickness_at(v) / widest - k_lowness * (k_.points[v].y - box.min.y) / height;
-      if (score > best_score) best_score = score, best = v;
+      const Double3& p = k_.points[v];
+      const double thickness = thickness_at(v);
+      const double score = thickness / widest - k_lowness * (p.y - box.min.y) / height;
+      const Rank rank{score, thickness, -p.x, -p.z};
+      if (best == k_none || rank > best_rank) best_rank = rank, best = v;
     }
     return best;
   }

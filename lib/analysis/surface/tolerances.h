@@ -46,6 +46,10 @@ inline constexpr double k_about_square = 0.05;
 // cap. Caps are flat, or pulled up a little; the point that a twig runs out into is as long as a segment.
 inline constexpr double k_lid_height = 0.125;
 
+// Share of the radius by which the corners and the edges of a regular polygon may differ: files round a twig
+// of 5 mm at a thousandth, and nothing is as regular by chance.
+inline constexpr double k_regular_ring = 1e-2;
+
 // joining and attaching limbs
 
 // Share of the radius by which two rings that are one may differ in centre and, of the diameter, in diameter.
@@ -56,6 +60,9 @@ inline constexpr double k_one_plane = 0.99;
 // Ratio of the diameters of two ends that do not tell which is the base: tubes taper by more, rounding by
 // less.
 inline constexpr double k_like_thickness = 1.1;
+// Ratio of the thickest end of a limb to the thinnest that it may stand on: the ends of a forked trunk of
+// even thickness differ by how they were cut, the tips of drooping branches are thinner by far.
+inline constexpr double k_thinner_base = 2;
 // Diameters of a ring up to which a point beyond it closes it as a lid or a rounded end does; farther out it
 // is the tip of a cone.
 inline constexpr double k_blunt_point = 1;

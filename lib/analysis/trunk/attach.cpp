@@ -44,13 +44,17 @@ Lists segments_of_rings(const Limbs& limbs, const LimbSegments& segments) {
 class Attacher {
  public:
   Attacher(const Limbs& limbs, const LimbSegments& segments, const Ground& ground,
-           std::span<const std::uint32_t> bases)
+           std::span<const std::uint32_t> bases, std::span<const std::uint32_t> roots)
       : limbs_(limbs),
         segments_(segments),
         ground_(ground),
         segments_at_(segments_of_rings(limbs, segments)),
         natural_bases_(bases),
-        bases_(bases.begin(), bases.end()) {}
+        bases_(bases.begin(), bases.end()),
+        named_(!roots.empty()),
+        is_named_(limbs.size, 0) {
+    for (const std::uint32_t l : roots) is_named_[l] = 1;
+  }
 
   std::vector<Attachment> run() {
     look_round();
@@ -100,6 +104,8 @@ class Attacher {
   Lists segments_at_;  // one a ring
   std::span<const std::uint32_t> natural_bases_;
   std::vector<std::uint32_t> bases_;                         // by which limbs are attached, if they are
+  bool named_;                                               // whether somebody says which limbs are roots
+  std::vector<std::uint8_t> is_named_;                       // one a limb
   double size_ = 0;                                          // of the whole trunk
   double lowest_ = std::numeric_limits<double>::infinity();  // y of the lowest base
   std::vector<double> reach_;                                // from a limb's base to its farthest ring
@@ -183,6 +189,7 @@ Candidate Attacher::candidate(const Nearness& near, std::uint32_t base, double r
 
 // Whether a limb comes out of the ground and not out of one of its possible parents.
 bool Attacher::stands_on_ground(std::uint32_t limb, std::span<const Candidate> candidates) const {
+  if (named_) return false;
   const std::uint32_t base = bases_[limb];
   const double rise = limbs_.centre[farthest_[limb]].y - limbs_.centre[base].y;
   if (ground_.is_below(base)) {
@@ -215,7 +222,7 @@ void Attacher::drop_plates() {
 }
 
 void Attacher::find_candidates(std::uint32_t limb) {
-  if (limbs_.plate(limb)) return;
+  if (limbs_.plate(limb) || is_named_[limb]) return;
   const std::size_t begin = candidates_.size();
   const double radius = radius_[limb];
   const std::uint32_t base = bases_[limb];
@@ -407,8 +414,8 @@ void Attacher::choose() {
 }  // namespace
 
 std::vector<Attachment> attach(const Limbs& limbs, const LimbSegments& segments, const Ground& ground,
-                               std::span<const std::uint32_t> bases) {
-  return Attacher(limbs, segments, ground, bases).run();
+                               std::span<const std::uint32_t> bases, std::span<const std::uint32_t> roots) {
+  return Attacher(limbs, segments, ground, bases, roots).run();
 }
 
 }  // namespace copse

@@ -28,7 +28,11 @@ struct Attachment {
 // something as well, most for a high and thin limb. All limbs together are attached in the cheapest way that
 // has no cycles (arborescence.h). A limb that is as thick at both ends begins with the one that fits the
 // habit better by far. A limb whose base is below the ground and that comes out of it is a root. O(n log n).
+//
+// `roots`: the limbs that are roots, whatever the geometry says, in any order; where any is named, the ground
+// makes no others, so that a branch that droops below it hangs on its tree.
 std::vector<Attachment> attach(const Limbs& limbs, const LimbSegments& segments, const Ground& ground,
-                               std::span<const std::uint32_t> bases);
+                               std::span<const std::uint32_t> bases,
+                               std::span<const std::uint32_t> roots = {});
 
 }  // namespace copse

@@ -196,6 +196,27 @@ class Assembly {
   Hierarchy hierarchy_;
 };
 
+// Sets the bases of the limbs at the points, and returns these limbs.
+std::vector<std::uint32_t> name_roots(Limbs& limbs, std::span<const Double3> points,
+                                      std::vector<std::uint32_t>& bases) {
+  std::vector<std::uint32_t> named;
+  const std::vector<std::uint32_t> ends = nearest_ends(limbs, points);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (ends[i] == k_none) continue;
+    const std::uint32_t limb = limbs.limb[ends[i]];
+    const Double3& p = points[i];
+    if (std::ranges::count(named, limb) != 0) {
+      limbs.notes.push_back(fmt::format(
+          "root {:g},{:g},{:g} is nearest to a surface that begins at another root and is left out", p.x, p.y,
+          p.z));
+      continue;
+    }
+    named.push_back(limb);
+    bases[limb] = ends[i];
+  }
+  return named;
+}
+
 }  // namespace
 
 Hierarchy recover_hierarchy(const TrunkMesh& mesh, const RecoverOptions& options) {
@@ -203,8 +224,9 @@ Hierarchy recover_hierarchy(const TrunkMesh& mesh, const RecoverOptions& options
   LimbSegments segments(limbs);
   if (limbs.size > 1) join(limbs, segments);
   const Ground ground(limbs, mesh.positions);
-  const std::vector<std::uint32_t> bases = choose_bases(limbs, segments, ground);
-  const std::vector<Attachment> attachments = attach(limbs, segments, ground, bases);
+  std::vector<std::uint32_t> bases = choose_bases(limbs, segments, ground);
+  const std::vector<std::uint32_t> roots = name_roots(limbs, options.roots, bases);
+  const std::vector<Attachment> attachments = attach(limbs, segments, ground, bases, roots);
   for (const Attachment& attachment : attachments) {
     if (attachment.base != k_none) reroot(limbs, attachment.base);
   }

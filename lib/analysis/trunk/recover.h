@@ -5,6 +5,7 @@
 #include "lib/analysis/surface/trunk_mesh.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace copse {
 
@@ -16,6 +17,9 @@ enum class Skeleton : std::uint8_t {
 
 struct RecoverOptions {
   Skeleton skeleton = Skeleton::automatic;
+  // Where trees begin: each at the end of a limb that is nearest to a point, metres, whatever else speaks for
+  // another; of two points at one limb the first counts (a note says so). Empty: recover_hierarchy() decides.
+  std::vector<Double3> roots = {};
 };
 
 // Reads every surface as a limb (ring_reader.h, else welded.h), joins limbs that are laid end to end

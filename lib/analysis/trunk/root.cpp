@@ -1,9 +1,11 @@
 #include "lib/analysis/trunk/root.h"
 
 #include "lib/analysis/rings/taper.h"
+#include "lib/analysis/surface/lists.h"
 #include "lib/analysis/surface/tolerances.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <tuple>
 
@@ -34,6 +36,22 @@ class Contact {
     return std::numeric_limits<double>::infinity();
   }
 
+  // Whether something holds a limb by this end: what it lies in or against, or what it floats a little above.
+  // It is not much thinner: a branch that begins at the top of a trunk does not hold the trunk.
+  bool holds(std::uint32_t end, double reach) {
+    const double radius = limbs_.diameter[end] / 2;
+    const auto is_holder = [&](const Nearness& near) {
+      const std::uint32_t ring = limbs_.alive(segments_.rings[near.segment][0]);
+      return !limbs_.plate(limbs_.limb[ring]) && near.radius * k_thicker_child >= radius;
+    };
+    segments_.tree.near(limbs_.centre[end], k_contact_reach * radius, radius / 2, limbs_.limb[end],
+                        k_candidates, found_);
+    if (!found_.empty()) return std::ranges::any_of(found_, is_holder);
+    Nearness near;
+    return segments_.tree.nearest(limbs_.centre[end], k_float_gap * reach, limbs_.limb[end], near) &&
+           is_holder(near);
+  }
+
  private:
   const Limbs& limbs_;
   const LimbSegments& segments_;
@@ -56,6 +74,7 @@ Ground::Ground(const Limbs& limbs, std::span<const Double3> positions)
       any_below |= below_[r] != 0;
     }
   }
+  overhead_ = !box.empty() && box.max.y <= k_ground_depth * height && box.min.y < -k_ground_depth * height;
   if (!any_below) find_floor(limbs, height);
 }
 
@@ -73,24 +92,111 @@ void Ground::find_floor(const Limbs& limbs, double height) {
   for (const std::uint32_t e : standing) floor_[e] = 1;
 }
 
+namespace {
+
+// Chooses among the ends of one limb.
+class BaseChooser {
+ public:
+  BaseChooser(const Limbs& limbs, const LimbSegments& segments, const Ground& ground)
+      : limbs_(limbs),
+        ground_(ground),
+        ends_(end_rings(limbs)),
+        possible_(possible_bases(limbs, ends_)),
+        thickness_(end_thickness(limbs, ends_)),
+        contact_(limbs, segments, ends_) {}
+
+  std::vector<std::uint32_t> run() {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> of_limb;
+    for (const std::uint32_t e : ends_) of_limb.emplace_back(limbs_.limb[e], e);
+    const Lists lists = make_lists(of_limb, limbs_.size);
+    std::vector<std::uint32_t> base(limbs_.size, k_none);
+    for (std::uint32_t l = 0; l < limbs_.size; ++l) {
+      if (lists[l].size() > 1 && !ground_.is_overhead() && !is_held(lists[l]))
+        base[l] = standing_end(lists[l]);
+      if (base[l] == k_none) base[l] = held_end(lists[l]);
+    }
+    return base;
+  }
+
+ private:
+  bool is_grounded(std::uint32_t end) const { return ground_.is_below(end) || ground_.is_floor(end); }
+
+  bool is_held(std::span<const std::uint32_t> ends) {
+    DoubleBox box;
+    for (const std::uint32_t e : ends) box.grow(limbs_.centre[e]);
+    const double reach = length(box.extent());
+    return std::ranges::any_of(
+        ends, [&](std::uint32_t e) { return possible_[e] && !is_grounded(e) && contact_.holds(e, reach); });
+  }
+
+  std::uint32_t held_end(std::span<const std::uint32_t> ends) {
+    const auto choices = std::ranges::count_if(ends, [&](std::uint32_t e) { return possible_[e] != 0; });
+    using Rank = std::tuple<bool, double, double, double, double>;  // lower is better
+    Rank best;
+    std::uint32_t base = k_none;
+    for (const std::uint32_t e : ends) {
+      if (!possible_[e]) continue;
+      const Double3& c = limbs_.centre[e];
+      Rank rank;
+      if (choices > 1) rank = {!is_grounded(e), contact_(e), c.y, c.x, c.z};
+      if (base == k_none || rank < best) best = rank, base = e;
+    }
+    return base;
+  }
+
+  // Whether a limb may stand on an end.
+  bool may_stand(std::uint32_t end, std::size_t ends, double thickest) const {
+    if (ends == 2 && ground_.is_below(end)) return true;
+    return thickness_[end] > 0 && (ends == 2 || thickness_[end] * k_thinner_base >= thickest);
+  }
+
+  std::uint32_t standing_end(std::span<const std::uint32_t> ends) const {
+    double thickest = 0;
+    for (const std::uint32_t e : ends) thickest = std::max(thickest, thickness_[e]);
+    std::vector<std::uint32_t> may;
+    for (const std::uint32_t e : ends) {
+      if (may_stand(e, ends.size(), thickest)) may.push_back(e);
+    }
+    const auto is_down = [&](std::uint32_t e) { return is_grounded(e); };
+    if (std::ranges::any_of(may, is_down)) std::erase_if(may, std::not_fn(is_down));
+    if (may.empty()) return k_none;
+    const auto height = [&](std::uint32_t e) { return limbs_.centre[e].y; };
+    const std::uint32_t lowest = std::ranges::min(may, {}, height);
+    const double level = height(lowest) + k_ground_level * thickness_[lowest] / 2;
+    std::erase_if(may, [&](std::uint32_t e) { return height(e) > level; });
+    return std::ranges::min(may, {}, [&](std::uint32_t e) {
+      const Double3& c = limbs_.centre[e];
+      return std::tuple(-thickness_[e], c.y, c.x, c.z);
+    });
+  }
+
+  const Limbs& limbs_;
+  const Ground& ground_;
+  std::vector<std::uint32_t> ends_;
+  std::vector<std::uint8_t> possible_;
+  std::vector<double> thickness_;
+  Contact contact_;
+};
+
+}  // namespace
+
 std::vector<std::uint32_t> choose_bases(const Limbs& limbs, const LimbSegments& segments,
                                         const Ground& ground) {
+  return BaseChooser(limbs, segments, ground).run();
+}
+
+std::vector<std::uint32_t> nearest_ends(const Limbs& limbs, std::span<const Double3> points) {
   const std::vector<std::uint32_t> ends = end_rings(limbs);
-  const std::vector<std::uint8_t> possible = possible_bases(limbs, ends);
-  std::vector<std::uint32_t> choices(limbs.size, 0);
-  for (const std::uint32_t e : ends) choices[limbs.limb[e]] += possible[e];
-  Contact contact(limbs, segments, ends);
-  using Rank = std::tuple<bool, double, double>;  // lower is better
-  std::vector<Rank> best(limbs.size);
-  std::vector<std::uint32_t> base(limbs.size, k_none);
-  for (const std::uint32_t e : ends) {
-    const std::uint32_t limb = limbs.limb[e];
-    if (!possible[e]) continue;
-    Rank rank;
-    if (choices[limb] > 1) rank = {!ground.is_below(e) && !ground.is_floor(e), contact(e), limbs.centre[e].y};
-    if (base[limb] == k_none || rank < best[limb]) best[limb] = rank, base[limb] = e;
+  std::vector<std::uint32_t> nearest;
+  for (const Double3& p : points) {
+    std::uint32_t best = k_none;
+    for (const std::uint32_t e : ends) {
+      if (limbs.plate(limbs.limb[e])) continue;
+      if (best == k_none || distance(limbs.centre[e], p) < distance(limbs.centre[best], p)) best = e;
+    }
+    nearest.push_back(best);
   }
-  return base;
+  return nearest;
 }
 
 }  // namespace copse
