@@ -92,6 +92,7 @@ class Attacher {
   Habit habit(double Candidate::*measure) const;
   Habit habit() const;
   static double cost(const Candidate& candidate, const Habit& habit);
+  Candidate best_along(const Candidate& nearest, std::uint32_t base, double radius, const Habit& habit) const;
   void rate(std::uint32_t limb, const Habit& habit);
   void choose();
   double lean(const Nearness& near, std::uint32_t base) const;
@@ -326,6 +327,27 @@ double Attacher::cost(const Candidate& c, const Habit& habit) {
          k_cost_buried * c.buried + c.doubt;
 }
 
+// A possible parent with its cost. Where the parent bends or changes its thickness, the segment that the limb
+// was set on may be the next one to that which is nearest.
+Candidate Attacher::best_along(const Candidate& nearest, std::uint32_t base, double radius,
+                               const Habit& habit) const {
+  Candidate best = nearest;
+  best.cost = cost(nearest, habit);
+  for (const std::uint32_t ring : segments_.rings[nearest.segment]) {
+    for (const std::uint32_t segment : segments_at_[limbs_.alive(ring)]) {
+      if (segment == nearest.segment) continue;
+      const Nearness near = nearness(segments_.tree.segments(), segment, limbs_.centre[base]);
+      if (near.gap() > k_contact_reach * radius) continue;
+      Candidate other = candidate(near, base, radius);
+      other.buried = nearest.buried;
+      other.doubt = nearest.doubt;
+      other.cost = cost(other, habit);
+      if (other.cost < best.cost) best = other;
+    }
+  }
+  return best;
+}
+
 // What it costs at least to hang a limb on another one by the end that is not its base. What itself begins
 // there is no parent.
 double Attacher::cost_by_other_end(std::uint32_t limb, const Habit& usual) {
@@ -339,7 +361,7 @@ double Attacher::cost_by_other_end(std::uint32_t limb, const Habit& usual) {
     const std::uint32_t base = bases_[c.limb];
     const bool begins_here =
         base != k_none && distance(limbs_.centre[base], limbs_.centre[end]) <= 2 * radius;
-    if (!begins_here) least = std::min(least, cost(c, usual));
+    if (!begins_here) least = std::min(least, best_along(c, end, radius, usual).cost);
   }
   return least;
 }
@@ -356,7 +378,7 @@ bool Attacher::turn_doubtful(const Habit& usual) {
     if (limbs_.diameter[end] <= 0 || ground_.is_below(base) || ground_.is_floor(base)) continue;
     const auto candidates = std::span(candidates_).subspan(first_[limb], first_[limb + 1] - first_[limb]);
     double now = std::numeric_limits<double>::infinity();
-    for (const Candidate& c : candidates) now = std::min(now, cost(c, usual));
+    for (const Candidate& c : candidates) now = std::min(now, best_along(c, base, radius_[limb], usual).cost);
     if (candidates.empty() || now <= k_cost_turn || cost_by_other_end(limb, usual) + k_cost_turn >= now)
       continue;
     bases[limb] = end;
@@ -366,26 +388,10 @@ bool Attacher::turn_doubtful(const Habit& usual) {
   return turned;
 }
 
-// The costs of a limb's possible parents. Where a parent bends or changes its thickness, the segment that the
-// limb was set on may be the next one to that which is nearest.
+// The costs of a limb's possible parents.
 void Attacher::rate(std::uint32_t limb, const Habit& habit) {
   for (std::uint32_t i = first_[limb]; i < first_[limb + 1]; ++i) {
-    Candidate& c = candidates_[i];
-    c.cost = cost(c, habit);
-    const Candidate nearest = c;
-    for (const std::uint32_t ring : segments_.rings[nearest.segment]) {
-      for (const std::uint32_t segment : segments_at_[limbs_.alive(ring)]) {
-        if (segment == nearest.segment) continue;
-        const std::uint32_t base = bases_[limb];
-        const Nearness near = nearness(segments_.tree.segments(), segment, limbs_.centre[base]);
-        if (near.gap() > k_contact_reach * radius_[limb]) continue;
-        Candidate other = candidate(near, base, radius_[limb]);
-        other.buried = nearest.buried;
-        other.doubt = nearest.doubt;
-        other.cost = cost(other, habit);
-        if (other.cost < c.cost) c = other;
-      }
-    }
+    candidates_[i] = best_along(candidates_[i], bases_[limb], radius_[limb], habit);
   }
 }
 
