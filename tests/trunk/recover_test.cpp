@@ -4,6 +4,8 @@
 #include "tests/trunk/tube_maker.h"
 
 #include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -159,6 +161,37 @@ TEST(Recover, AChainOfTenThousandTubesGrowsOutOfOneRoot) {
   }
   const Hierarchy h = recover(maker.mesh);
   EXPECT_EQ(std::ranges::count(h.radii, k_none, &RadiusNode::parent), 1);
+}
+
+// A box 4 m wide, 3 m deep and 0.1 m thick.
+void add_plate(Mesh& mesh) {
+  const auto base = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::uint32_t i = 0; i < 8; ++i)
+    mesh.positions.push_back({i & 1 ? 2.0 : -2.0, i & 2 ? 0.0 : -0.1, i & 4 ? 1.5 : -1.5});
+  for (const auto& [a, b, c, d] : std::initializer_list<std::array<std::uint32_t, 4>>{
+           {0, 1, 3, 2}, {5, 4, 6, 7}, {4, 0, 2, 6}, {1, 5, 7, 3}, {2, 3, 7, 6}, {4, 5, 1, 0}}) {
+    mesh.triangles.push_back({base + a, base + b, base + c});
+    mesh.triangles.push_back({base + a, base + c, base + d});
+    mesh.part_of.insert(mesh.part_of.end(), 2, 0);
+  }
+}
+
+TEST(Recover, GroundThatTreesStandOnIsAStubAndNoLyingLimb) {
+  TubeMaker maker;
+  maker.add(tube({0, 0, 0}, {0, 3, 0}, 4, 0.2, 0.1, 6));
+  maker.add(tube({1, 0, 1}, {1, 2, 1}, 3, 0.2, 0.1, 6));
+  add_plate(maker.mesh);
+  const Hierarchy h = recover(maker.mesh);
+  EXPECT_TRUE(is_sound(maker.mesh));
+  ASSERT_EQ(h.radii.size(), 4u + 3u + 2u);
+  EXPECT_EQ(std::ranges::count(h.radii, k_none, &RadiusNode::parent), 3);
+  const auto top = std::ranges::find(h.radii, RadiusSource::surface, &RadiusNode::source) + 1;
+  ASSERT_NE(top->parent, k_none);
+  const RadiusNode& foot = h.radii[top->parent];
+  EXPECT_EQ(std::abs(top->centre.y - foot.centre.y), 0.1);
+  EXPECT_EQ(Double3(top->centre.x, 0, top->centre.z), Double3(foot.centre.x, 0, foot.centre.z));
+  EXPECT_DOUBLE_EQ(top->diameter, 5);
+  EXPECT_EQ(std::ranges::count(h.segment_of, static_cast<std::uint32_t>(top - h.radii.begin())), 12);
 }
 
 TEST(Recover, SharesTheRadiusWhereTubesAreLaidEndToEnd) {

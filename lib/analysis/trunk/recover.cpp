@@ -11,6 +11,7 @@
 #include "lib/analysis/trunk/welded.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -52,6 +53,34 @@ void mark_plates(const TrunkMesh& mesh, const Surfaces& surfaces, Limbs& limbs) 
   }
 }
 
+// Ground is no limb that lies there, as its rings would say, but a short thick stub that stands there: what
+// moves as little as what grows on it. False where it has no thickness to be long.
+bool append_ground(const TrunkMesh& mesh, std::span<const std::uint32_t> triangles,
+                   std::span<const std::uint32_t> vertices, Limbs& limbs) {
+  DoubleBox box;
+  for (const std::uint32_t v : vertices) box.grow(mesh.positions[v]);
+  const Double3 centre = box.centre();
+  std::vector<std::uint32_t> below, above;
+  for (const std::uint32_t v : vertices) (mesh.positions[v].y < centre.y ? below : above).push_back(v);
+  if (below.empty() || above.empty()) return false;
+  const std::uint32_t foot = limbs.rings();
+  const auto append_level = [&](std::span<const std::uint32_t> level, double y, std::uint32_t parent) {
+    const Double3 middle{centre.x, y, centre.z};
+    double sum = 0;
+    for (const std::uint32_t v : level) {
+      const Double3 from = mesh.positions[v] - middle;
+      sum += std::hypot(from.x, from.z);
+    }
+    const double diameter = 2 * sum / static_cast<double>(level.size());
+    limbs.append({middle, diameter, {0, 1, 0}}, parent, RadiusSource::surface, level);
+  };
+  append_level(below, box.min.y, k_none);
+  append_level(above, box.max.y, foot);
+  ++limbs.size;
+  for (const std::uint32_t t : triangles) limbs.owner[t] = foot + 1;
+  return true;
+}
+
 Limbs read_limbs(const TrunkMesh& mesh, const RecoverOptions& options) {
   Limbs limbs;
   limbs.owner.assign(mesh.triangles.size(), k_none);
@@ -62,10 +91,15 @@ Limbs read_limbs(const TrunkMesh& mesh, const RecoverOptions& options) {
   const WeldedOptions welded{options.skeleton == Skeleton::automatic ? WeldedMethod::automatic
                              : options.skeleton == Skeleton::rings   ? WeldedMethod::rings
                                                                      : WeldedMethod::surface};
-  std::uint32_t tubes = 0;
+  mark_plates(mesh, surfaces, limbs);
+  std::uint32_t tubes = 0, grounds = 0;
   std::uint64_t welded_triangles = 0;
   for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
     const auto triangles = surfaces.triangles(s);
+    if (limbs.plate(s) && append_ground(mesh, triangles, surfaces.vertices(s), limbs)) {
+      ++grounds;
+      continue;
+    }
     if (options.skeleton != Skeleton::surface && reader.read(triangles, surfaces.vertices(s), limbs)) {
       ++tubes;
       continue;
@@ -73,13 +107,14 @@ Limbs read_limbs(const TrunkMesh& mesh, const RecoverOptions& options) {
     append_welded(recover_welded(mesh, triangles, welded), triangles, limbs);
     welded_triangles += triangles.size();
   }
-  mark_plates(mesh, surfaces, limbs);
   for (const auto& [triangle, original] : fans.repeated) {
     limbs.owner[triangle] = limbs.owner[original];
     limbs.lid[triangle] = limbs.lid[original];
   }
   limbs.notes.push_back(fmt::format("{} of {} surfaces read as rings; {} triangles lie in the others", tubes,
-                                    surfaces.size(), welded_triangles));
+                                    surfaces.size() - grounds, welded_triangles));
+  if (grounds > 0)
+    limbs.notes.push_back("a plate at the bottom, half as wide as everything, is ground and no limb");
   return limbs;
 }
 
