@@ -23,14 +23,6 @@ void expect_sound(const Surface& s, const CurveSkeleton& k) {
   for (const auto n : k.node_of) EXPECT_LT(n, k.points.size());
 }
 
-// The triangles of each connected piece.
-std::vector<std::vector<std::uint32_t>> parts_of(const TrunkMesh& mesh) {
-  const Components parts = connected_components(mesh.triangles);
-  std::vector<std::vector<std::uint32_t>> triangles(parts.count);
-  for (std::uint32_t t = 0; t < parts.of.size(); ++t) triangles[parts.of[t]].push_back(t);
-  return triangles;
-}
-
 TEST(FlowSkeleton, ClosesAWideHoleByAVertexInItsMiddle) {
   std::vector<Double3> axis;
   for (int i = 0; i <= 8; ++i) axis.push_back({0, 0.5 * i, 0});
@@ -68,10 +60,21 @@ TEST(FlowSkeleton, OfWhatEnclosesNothingIsEmpty) {
   EXPECT_TRUE(flow_skeleton(Surface{}).points.empty());
 }
 
+TEST(FlowSkeleton, OfSliversIsSoundOrEmptyAndSoonThere) {
+  for (double thick = 1; thick > 1e-17; thick /= 10) {
+    TrunkMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, thick, 0}, {0.5, 0, thick}};
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    const Surface s = make_surface(mesh, first_component(mesh));
+    const CurveSkeleton k = flow_skeleton(s);
+    if (!k.points.empty()) expect_sound(s, k);
+  }
+}
+
 TEST(FlowSkeleton, OfAnythingIsSoundOrEmpty) {
   for (std::uint32_t seed = 0; seed < 12; ++seed) {
     const TrunkMesh soup = random_soup(9, 20, seed);
-    const Surface s = make_surface(soup, parts_of(soup)[0]);
+    const Surface s = make_surface(soup, first_component(soup));
     const CurveSkeleton k = flow_skeleton(s);
     if (!k.points.empty()) expect_sound(s, k);
   }

@@ -132,15 +132,19 @@ bool close(ClosedMesh& mesh) {
   if (mesh.number_of_faces() < 4 || !CGAL::is_closed(mesh)) return false;
   const double volume = PMP::volume(mesh);
   if (volume < 0) PMP::reverse_face_orientations(mesh);
-  if (!(std::abs(volume) > 0)) return false;
+  const double area = PMP::area(mesh);
+  if (!(std::abs(volume) > k_flow_thinnest * area * std::sqrt(area))) return false;
   if (mesh.number_of_faces() > k_flow_triangles) {
     CGAL::Surface_mesh_simplification::edge_collapse(
         mesh, CGAL::Surface_mesh_simplification::Count_stop_predicate<ClosedMesh>(k_flow_triangles * 3 / 2));
   }
-  if (mesh.number_of_faces() < k_flow_triangles_at_least) {  // edges of an even mesh of that many triangles
-    const double longest =
-        std::sqrt(PMP::area(mesh) / static_cast<double>(k_flow_triangles_at_least) * 4 / std::sqrt(3.0));
-    PMP::split_long_edges(mesh.edges(), longest, mesh);
+  if (mesh.number_of_faces() < k_flow_triangles_at_least) {
+    // Edges of an even mesh of that many triangles; where some are far longer than that, longer ones.
+    const double even =
+        std::sqrt(area / static_cast<double>(k_flow_triangles_at_least) * 4 / std::sqrt(3.0));
+    double all = 0;
+    for (const auto e : mesh.edges()) all += PMP::edge_length(e, mesh);
+    PMP::split_long_edges(mesh.edges(), std::max(even, all / static_cast<double>(k_flow_triangles)), mesh);
   }
   mesh.collect_garbage();
   return true;
