@@ -17,7 +17,10 @@ constexpr int k_rough_rounds = 2;
 // Starts that are descended from. A small hull has few, deep valleys, and is quick.
 constexpr std::size_t k_small_hull = 60;
 constexpr std::size_t k_kept_small = 20, k_kept = 12, k_lozenge_kept_small = 32, k_lozenge_kept = 16;
-constexpr double k_same_end = 1e-7;            // costs of descents that came to one end
+constexpr double k_same_end = 1e-7;  // costs of descents that came to one end
+// Times the least of the starts, which all hold the points: what is larger has not been seen to end as the
+// least.
+constexpr double k_off = 1.5, k_far_off = 2;   // of a valley that has a start, of another one
 constexpr double k_alike = 0.985;              // of frames a sixth of a radian apart
 constexpr double k_same_valley = 0.95;         // a third of a radian
 constexpr std::size_t k_most_looked_at = 128;  // points, for the choice of the starts
@@ -228,9 +231,11 @@ std::vector<SweptFit> promising_starts(Swept kind, std::span<const Double3> poin
     const bool lowest = std::none_of(all.begin(), f, [&](const Start& lower) {
       return likeness(kind, lower.fit.frame, f->fit.frame) > k_same_valley;
     });
-    if (lowest) keep(f->fit);
+    if (lowest && f->cost <= k_far_off * all.front().cost) keep(f->fit);
   }
-  for (const Start& f : all) keep(f.fit);
+  for (const Start& f : all) {
+    if (f.cost <= k_off * all.front().cost) keep(f.fit);
+  }
   return kept;
 }
 
