@@ -1,4 +1,5 @@
-// leaf_agglomeration: two leaves become one bigger, by closed forms alone: no picture is drawn.
+// leaf_agglomeration: two leaves become one bigger, by closed forms alone: but for who can
+// leave first (leaf_occlusion.h) no picture is drawn.
 //
 // Leaf collapse (leaf_collapse.h) for when it must be quick. What is seen of a leaf is what the crown's field
 // says of its place (crown_field.h). Each leaf's best host is sought among its neighbours along a

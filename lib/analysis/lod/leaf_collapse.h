@@ -15,9 +15,10 @@
 
 namespace copse {
 
-// fast: closed forms, no pictures (leaf_agglomeration.h, which none of the other options reaches);
-// balanced: pictures of three pixels a leaf decide, at some points of each candidate; exact: pictures of five
-// pixels, drawn again after half as many changes, more candidates, and all of their pixels.
+// fast: after leaf_occlusion.h closed forms, no pictures (leaf_agglomeration.h, which none of the other
+// options reaches); balanced: the same while there are many leaves, then pictures of three pixels a leaf
+// decide, at some points of each candidate; exact: pictures of five pixels, drawn again after half as many
+// changes, more candidates, and all of their pixels.
 enum class CollapseQuality : std::uint8_t { fast, balanced, exact };
 
 struct LeafCollapseOptions {
