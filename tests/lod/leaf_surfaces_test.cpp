@@ -108,6 +108,18 @@ TEST(LeafSurfaces, ABallKeepsItsOutlineItsAreaAndItsHullAtATenth) {
   }
 }
 
+TEST(LeafSurfaces, ItIsToldWhichLeavesLostEdges) {
+  CollapsedLumps told;
+  collapse_spectrum(LumpyTree{.balls = crown(1), .cards = 5}.make(), {}, {.quality = CollapseQuality::fast},
+                    &told);
+  EXPECT_EQ(told.lumps, 12u);
+  EXPECT_EQ(told.triangles, 12u * 80);
+  EXPECT_GT(told.share, 0.5);
+  EXPECT_LT(told.share, 1);
+  EXPECT_LT(told.left, told.triangles);
+  EXPECT_GT(told.left, 0u);
+}
+
 TEST(LeafSurfaces, ACrownOfBallsKeepsItsOutlineAtATenth) {
   const Spectrum s = collapse_spectrum(LumpyTree{.balls = crown(2)}.make());
   ASSERT_EQ(s.counts[0], 12u * 320);

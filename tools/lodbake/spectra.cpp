@@ -40,12 +40,24 @@ Spectrum trunk_spectrum(const Tree& tree, const Options& options, Context& conte
                                                            : trunk_by_radii(tree, {.order = options.removal});
 }
 
+Spectrum collapsed(const Tree& tree, const Looks& looks, const Options& options, Context& context) {
+  CollapsedLumps lumps;
+  Spectrum s = collapse_spectrum(tree, looks, {.quality = options.quality}, &lumps);
+  if (lumps.lumps > 0)
+    context.report().tables.push_back(
+        {.name = "leaves by edges",
+         .columns = {"Lumps", "Triangles", "Share of the leaf area", "Edges until (triangles)"},
+         .rows = {{fmt::format("{}", lumps.lumps), fmt::format("{}", lumps.triangles),
+                   fmt::format("{:.3f}", lumps.share), fmt::format("{}", lumps.left)}}});
+  return s;
+}
+
 Spectrum leaf_spectrum(const Tree& tree, const Looks& looks, const Options& options, Context& context,
                        std::optional<FoliageCells>& cells) {
   Stage stage = context.stage("leaves");
   stage.items(tree.leaves.triangles.size(), "triangles");
   if (options.foliage == FoliageMethod::collapse || tree.leaves.triangles.empty())
-    return collapse_spectrum(tree, looks, {.quality = options.quality});
+    return collapsed(tree, looks, options, context);
   cells = prune_foliage(tree, looks,
                         {.cells = options.cells,
                          .views = options.views,

@@ -639,7 +639,8 @@ class Collapse {
 
 }  // namespace
 
-Spectrum collapse_spectrum(const Tree& tree, const Looks& looks, const LeafCollapseOptions& options) {
+Spectrum collapse_spectrum(const Tree& tree, const Looks& looks, const LeafCollapseOptions& options,
+                           CollapsedLumps* report) {
   const LeafPieces pieces = leaf_pieces(tree);
   const auto collapse = [&](const LeafPieces& some) {
     return options.quality == CollapseQuality::fast
@@ -647,6 +648,11 @@ Spectrum collapse_spectrum(const Tree& tree, const Looks& looks, const LeafColla
                : Collapse(tree, looks, some, pieces, options).run();
   };
   const std::optional<SurfaceCollapse> lumps = collapse_surfaces(pieces);
+  if (report != nullptr && lumps)
+    *report = {.lumps = lumps->lumps,
+               .triangles = lumps->triangles,
+               .left = static_cast<std::uint32_t>(lumps->left.triangles.size()),
+               .share = lumps->share};
   return lumps ? joined(lumps->spectrum, collapse(lumps->left)) : collapse(pieces);
 }
 

@@ -30,6 +30,13 @@ struct LeafCollapseOptions {
   double other = 0.04;    // what a pixel counts that shows another leaf, beside one that is lost or gained
 };
 
+// Which of the leaves lost edges before they were merged (leaf_surfaces.h).
+struct CollapsedLumps {
+  std::uint32_t lumps = 0, triangles = 0;  // at full detail
+  std::uint32_t left = 0;                  // triangles when edges were done: of all leaves
+  double share = 0;                        // of the leaves' area
+};
+
 // The spectrum of the tree's leaves; without elements when it has none. An opaque leaf becomes a triangle,
 // triangle by triangle; one whose texture has alpha a card of two triangles with the texture of one of the
 // leaves that it stands for (or a triangle, where the leaves are triangles). Where most of the area is of
@@ -40,9 +47,9 @@ struct LeafCollapseOptions {
 // below 0.19 of the triangles the areas add up to what they were, as long as that fits
 // (`largest`). A step's error, metres: how far ground that
 // only one leaf covers is from what stands for that leaf, as estimated, the largest so far. Steps come in the
-// order of what they change in the picture, as far as can be. Deterministic. O(n log n): each round draws
-// what is left from 6 or 12 sides and takes away an eighth to a fourth of it.
-Spectrum collapse_spectrum(const Tree& tree, const Looks& looks = {},
-                           const LeafCollapseOptions& options = {});
+// order of what they change in the picture, as far as can be. `lumps`: told what lost edges. Deterministic.
+// O(n log n): each round draws what is left from 6 or 12 sides and takes away an eighth to a fourth of it.
+Spectrum collapse_spectrum(const Tree& tree, const Looks& looks = {}, const LeafCollapseOptions& options = {},
+                           CollapsedLumps* lumps = nullptr);
 
 }  // namespace copse

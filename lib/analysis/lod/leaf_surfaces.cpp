@@ -236,7 +236,12 @@ class Replay {
     for (std::size_t n = 1; n < errors.size(); ++n)
       errors[n] = n + 1 < errors.size() ? errors[n + 1] : round_up(error_);
     s.errors = std::move(errors);
-    return {std::move(s), left()};
+    return {.spectrum = std::move(s),
+            .left = left(),
+            .lumps = static_cast<std::uint32_t>(lumps_.size()),
+            .triangles = static_cast<std::uint32_t>(
+                std::count_if(lump_of_.begin(), lump_of_.end(), [](std::uint32_t l) { return l != k_none; })),
+            .share = surfaces_.share()};
   }
 
  private:

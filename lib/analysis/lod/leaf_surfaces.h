@@ -16,6 +16,8 @@ namespace copse {
 struct SurfaceCollapse {
   Spectrum spectrum;  // method collapse; all leaves, from full detail on
   LeafPieces left;    // what its last step draws, to be collapsed further; a lump triangle by triangle
+  std::uint32_t lumps = 0, triangles = 0;  // at full detail
+  double share = 0;                        // of the leaves' area that is theirs
 };
 
 // Triangles of one leaf that share places (not only vertices: flat shading splits those) are one surface. A
