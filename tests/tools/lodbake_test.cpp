@@ -245,6 +245,11 @@ TEST_F(Lodbake, TheReportHasAreaCoverageAndImageErrorOfEveryLevel) {
     ASSERT_EQ(table["rows"].size(), 3u);
     EXPECT_EQ(table["rows"][0][3], "1.000");
     EXPECT_EQ(table["rows"][0][6], "0.0000");
+    EXPECT_EQ(table["rows"][1][9], "512") << "the share that was asked for is .5";
+    EXPECT_EQ(table["columns"][12], "Lost branch length");
+    EXPECT_EQ(table["rows"][0][12], "0.000");
+    EXPECT_EQ(table["columns"][13], "Bytes");
+    EXPECT_GT(std::stoul(table["rows"][1][13].get<std::string>()), 0u);
   }
   EXPECT_TRUE(found);
   EXPECT_NE(read_text(folder_.path() / "r.html").find("data:image/png;base64"), std::string::npos);
@@ -302,6 +307,18 @@ TEST_F(Lodbake, WrongOptionsAreUsageErrors) {
                                              {"--near", "500", "--medium", "100"},
                                              {"--near", "100", "--far", "110"},
                                              {"--hysteresis", "100"},
+                                             {"--discrete", "0.9,0.85"},
+                                             {"--hysteresis", "20"},
+                                             {"--near", "500"},
+                                             {"--far", "0.5"},
+                                             {"--min-triangles", "-1"},
+                                             {"--threshold", "-1"},
+                                             {"--medium", "50", "--discrete", "0.5"},
+                                             {"--method", "radii,edges"},
+                                             {"--method", "collapse,prune"},
+                                             {"--method", "edges", "--trunk", "radii"},
+                                             {"--method", "lines-points", "--discrete", "0.5"},
+                                             {"--foliage", "prune", "--quality", "fast"},
                                              {"--trunk", "magic"},
                                              {"--position-bits", "3"}}) {
     const Outcome o = bake(wrong);
@@ -338,6 +355,48 @@ TEST_F(Lodbake, MethodsHaveNames) {
   ASSERT_EQ(bake({"--trunk", "edges", "--foliage", "prune"}).status, 0);
   EXPECT_EQ(read_text(out_), named);
   EXPECT_EQ(bake({"--method", "magic"}).status, 2);
+}
+
+TEST_F(Lodbake, LinesAndPointsAloneBakeNothingElse) {
+  const std::string report = folder_.file("r.json");
+  ASSERT_EQ(bake({"--method", "lines-points", "--views", "12", "--report", report}).status, 0);
+  EXPECT_EQ(read_text(out_), read_text(tree_));
+  EXPECT_NE(read_text(report).find("lines and points"), std::string::npos);
+  ASSERT_EQ(bake({"--method", "lines-points,radii", "--views", "12"}).status, 0);
+  EXPECT_TRUE(TreeFile::open(out_)->has("LSTR"));
+}
+
+TEST_F(Lodbake, AnImpostorIsAMethodToo) {
+  ASSERT_EQ(
+      bake({"--method", "impostor", "--impostor-views", "1", "--impostor", "16", "--views", "12"}).status, 0);
+  EXPECT_EQ(run_process({"treedump", out_, "--export", folder_.file("atlas.png")}).status, 0);
+  ASSERT_EQ(bake({"--method", "impostor", "--views", "12"}).status, 0);
+  EXPECT_NE(run_process({"treedump", out_}).out.find("128 x 128 pixels"), std::string::npos);
+}
+
+TEST_F(Lodbake, SaysWhatIsNotToBeHad) {
+  const Outcome twice = bake({"--discrete", "0.5,0.33", "--divide", "even"});
+  EXPECT_EQ(twice.status, 0) << twice.err;
+  EXPECT_NE(twice.err.find("levels 1 and 2 are the same"), std::string::npos) << twice.err;
+  const Outcome cells = bake({"--cells", "12", "--divide", "even"});
+  EXPECT_EQ(cells.status, 0);
+  EXPECT_NE(cells.err.find("--cells"), std::string::npos) << cells.err;
+  const Outcome floor = bake(
+      {"--foliage", "prune", "--cells", "60", "--views", "12", "--discrete", "0.05", "--divide", "even"});
+  EXPECT_EQ(floor.status, 0);
+  EXPECT_NE(floor.err.find("not the 11 that were asked for"), std::string::npos) << floor.err;
+}
+
+TEST_F(Lodbake, ASmallCrownIsPrunedToo) {
+  ASSERT_EQ(bake({"--foliage", "prune", "--views", "12", "--discrete", "0.1", "--divide", "even"}).status, 0);
+  EXPECT_LE(triangles({"--level", "1"}), 23u);
+}
+
+TEST_F(Lodbake, WithoutLinesTheTrunkGoesByEdges) {
+  ASSERT_EQ(run_process({"treeprep", folder_.file("oak.obj"), "-o", tree_, "-q", "--omit", "lines"}).status,
+            0);
+  ASSERT_EQ(bake({"--discrete", "0.25"}).status, 0);
+  EXPECT_LE(triangles({"--level", "1"}), 236u / 4);
 }
 
 TEST_F(Lodbake, LinesAndPointsNeedTheirSections) {

@@ -14,9 +14,11 @@ constexpr std::array k_meanings{
     Meaning{"Share", "triangles of the level / triangles of full detail"},
     Meaning{"Trunk", "triangles of the trunk"},
     Meaning{"Leaves", "triangles of the leaves"},
-    Meaning{"Error (m)", "bound on how far what is drawn lies from what it stands for"},
+    Meaning{"Error (m)", "estimate of how far what is drawn lies from what it stands for"},
     Meaning{"From (m)", "distance from the camera at which the level takes over from the finer one"},
-    Meaning{"Floating leaves", "leaves whose twig is gone and that reach no other: must be 0"},
+    Meaning{"Floating leaves",
+            "leaves that are farther from the trunk as drawn than they were, by a hundredth of the height: "
+            "must be 0"},
     Meaning{"Lumps",
             "surfaces of many triangles among the leaves, which lose edges before leaves are merged"},
     Meaning{"Edges until (triangles)", "of the leaves, when that ends and what is left is merged as leaves"},
@@ -29,6 +31,8 @@ constexpr std::array k_meanings{
     Meaning{"Pixels", "size of the pictures that are compared: about that at which the level is shown"},
     Meaning{"Level to source (m)", "mean distance from points of the level to full detail's surface"},
     Meaning{"Source to level (m)", "mean distance from points of full detail to the level's surface"},
+    Meaning{"Lost branch length", "length of the segments whose tubes are gone / that of all"},
+    Meaning{"Bytes", "of both spectra, if this level were the only one beside full detail"},
     Meaning{"Extraction (us)", "time to write the index lists of the level, microseconds, median of 21"},
     Meaning{
         "Estimate",

@@ -4,6 +4,7 @@
 #include "tools/lodbake/run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include <CLI/CLI.hpp>
@@ -28,13 +29,17 @@ ToolInfo info() {
 
 namespace {
 
+constexpr int k_impostor_pixels = 128;  // a side, when only the name is given
+
 void take_methods(const std::vector<std::string>& names, Options& options) {
+  options.methods = names;
   for (const std::string& name : names) {
     if (name == "radii") options.trunk = TrunkMethod::radii;
     if (name == "edges") options.trunk = TrunkMethod::edges;
     if (name == "collapse") options.foliage = FoliageMethod::collapse;
     if (name == "prune") options.foliage = FoliageMethod::prune;
     if (name == "lines-points") options.lines_points = true;
+    if (name == "impostor" && options.impostor == 0) options.impostor = k_impostor_pixels;
   }
 }
 
@@ -57,7 +62,7 @@ void add_options(CLI::App& app, Options& options) {
                        ->check(number_between(0, 1));
   levels
       ->add_option("--discrete-error", options.discrete_error,
-                   "the coarsest levels within these errors in metres, ascending")
+                   "the coarsest levels whose error is estimated to be within these, metres, ascending")
       ->delimiter(',')
       ->type_name("E,...")
       ->check(number_from(0))
@@ -66,10 +71,12 @@ void add_options(CLI::App& app, Options& options) {
                    "store every level in between too; without it the file has only what the discrete "
                    "levels need");
   levels->add_option("--min-triangles", options.min_triangles, "no level has fewer")
+      ->check(whole_number_from(0))
       ->type_name("N")
       ->capture_default_str();
   levels
       ->add_option("--threshold", options.threshold, "a tree with no more triangles than this gets no levels")
+      ->check(whole_number_from(0))
       ->type_name("N")
       ->capture_default_str();
   levels->add_option("--near", options.near, "full detail up to this distance in metres")
@@ -89,7 +96,9 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   levels
       ->add_option("--max-error", options.max_error,
-                   "refuse (exit status 4) when a discrete level errs by more, metres")
+                   "refuse (exit status 4) when the surface of a discrete level is measured to be farther "
+                   "from that of full "
+                   "detail, metres")
       ->type_name("E")
       ->check(number_from(0));
 
@@ -97,14 +106,16 @@ void add_options(CLI::App& app, Options& options) {
   methods
       ->add_option_function<std::vector<std::string>>(
           "--method", [&options](const std::vector<std::string>& names) { take_methods(names, options); },
-          "the systems by name: radii or edges for the trunk, collapse or prune for the leaves, lines-points")
+          "the systems by name: radii or edges for the trunk, collapse or prune for the leaves, impostor, "
+          "lines-points; lines-points alone bakes nothing else")
       ->delimiter(',')
       ->type_name("NAME,...")
-      ->check(CLI::IsMember({"radii", "edges", "collapse", "prune", "lines-points"}));
+      ->check(CLI::IsMember({"radii", "edges", "collapse", "prune", "impostor", "lines-points"}));
   add_choice<TrunkMethod>(*methods, "--trunk", options.trunk,
                           "by radii (rings, sides, ribbons) or by edge collapses",
                           {{"radii", TrunkMethod::radii}, {"edges", TrunkMethod::edges}})
-      ->type_name("radii|edges");
+      ->type_name("radii|edges")
+      ->each([&options](const std::string&) { options.trunk_given = true; });
   add_choice<RemovalOrder>(
       *methods, "--removal", options.removal,
       "of --trunk radii: which rings go first, by what the silhouette loses, by the angle "
@@ -118,7 +129,8 @@ void add_options(CLI::App& app, Options& options) {
       *methods, "--foliage", options.foliage,
       "leaves become one bigger, two at a time, or vanish in stratified random order, cell by cell",
       {{"collapse", FoliageMethod::collapse}, {"prune", FoliageMethod::prune}})
-      ->type_name("collapse|prune");
+      ->type_name("collapse|prune")
+      ->each([&options](const std::string&) { options.foliage_given = true; });
   add_choice<CollapseQuality>(
       *methods, "--quality", options.quality,
       "of --foliage collapse; fast: closed forms; balanced: pictures decide, seen at some points; exact: all "
@@ -126,12 +138,14 @@ void add_options(CLI::App& app, Options& options) {
       {{"fast", CollapseQuality::fast},
        {"balanced", CollapseQuality::balanced},
        {"exact", CollapseQuality::exact}})
-      ->type_name("fast|balanced|exact");
+      ->type_name("fast|balanced|exact")
+      ->each([&options](const std::string&) { options.quality_given = true; });
   methods
       ->add_option(
           "--cells", options.cells,
           "of --foliage prune: at most so many cells, each with its visibility from --views directions")
       ->check(whole_number_from(1, 1 << 20))
+      ->each([&options](const std::string&) { options.cells_given = true; })
       ->type_name("N")
       ->capture_default_str();
   CLI::Option* impostor =
@@ -185,17 +199,64 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
 }
 
-Result<void> check(const Options& options) {
-  const auto usage = [](std::string what, std::string remedy) {
-    return fail(Fault::usage, "", std::move(what), std::move(remedy));
+namespace {
+
+std::unexpected<Error> usage(std::string what, std::string remedy) {
+  return fail(Fault::usage, "", std::move(what), std::move(remedy));
+}
+
+bool names(const Options& options, std::string_view method) {
+  return std::find(options.methods.begin(), options.methods.end(), method) != options.methods.end();
+}
+
+// What is named twice must be the same both times.
+Result<void> check_methods(const Options& options) {
+  const auto conflict = [&](const char* one, const char* other, bool given, bool is_one) {
+    return (names(options, one) && names(options, other)) || (given && names(options, is_one ? other : one));
   };
+  if (conflict("radii", "edges", options.trunk_given, options.trunk == TrunkMethod::radii))
+    return usage("--method: the trunk goes by radii or by edges, not by both", "name one of them");
+  if (conflict("collapse", "prune", options.foliage_given, options.foliage == FoliageMethod::collapse))
+    return usage("--method: leaves collapse or are pruned, not both", "name one of them");
+  if (options.quality_given && options.foliage == FoliageMethod::prune)
+    return usage("--quality is of --foliage collapse, and leaves are to be pruned", "drop one of them");
+  if (lines_points_alone(options) && (options.continuous || !options.discrete.empty() ||
+                                      !options.discrete_error.empty() || options.impostor > 0))
+    return usage("--method lines-points bakes no levels, and levels are asked for",
+                 "name the other methods too, or use --lines-points");
+  return {};
+}
+
+}  // namespace
+
+bool lines_points_alone(const Options& options) {
+  return !options.methods.empty() &&
+         std::all_of(options.methods.begin(), options.methods.end(),
+                     [](const std::string& name) { return name == "lines-points"; }) &&
+         !options.trunk_given && !options.foliage_given;
+}
+
+Result<void> check(const Options& options) {
+  if (auto right = check_methods(options); !right) return right;
   if (options.discrete.size() > k_max_discrete || options.discrete_error.size() > k_max_discrete)
     return usage("too many levels are named", fmt::format("name at most {}", k_max_discrete));
   if (!std::is_sorted(options.discrete.begin(), options.discrete.end(), std::greater_equal<>()))
     return usage("--discrete: the shares do not fall", "name them in descending order, each once");
   if (!std::is_sorted(options.discrete_error.begin(), options.discrete_error.end(), std::less_equal<>()))
     return usage("--discrete-error: the errors do not grow", "name them in ascending order, each once");
+  if (options.medium && (options.discrete.size() == 1 || options.discrete_error.size() == 1))
+    return usage("--medium: there is one level alone, and it begins at --near",
+                 "drop it, or name two levels or more");
   const double h = options.hysteresis / 100;
+  // Distances go with the root of the share.
+  for (std::size_t i = 1; i < options.discrete.size() && !options.near && !options.medium && !options.far;
+       ++i)
+    if (std::sqrt(options.discrete[i - 1]) * (1 - h) <= std::sqrt(options.discrete[i]) * (1 + h))
+      return usage(
+          fmt::format("--discrete: {} and {} are so close that with a hysteresis of {} % the finer one "
+                      "would be drawn nowhere",
+                      options.discrete[i - 1], options.discrete[i], options.hysteresis),
+          "name shares that are farther apart, or a smaller --hysteresis");
   const std::optional<double> borders[] = {options.near, options.medium, options.far};
   double before = -1;
   for (const auto& border : borders) {

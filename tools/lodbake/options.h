@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace copse::lodbake {
@@ -26,13 +27,15 @@ struct Options {
   std::optional<double> near, medium, far;
   bool continuous = false;
   std::uint64_t min_triangles = 0;
-  std::uint64_t threshold = 0;  // trees with no more triangles get no levels
-  double hysteresis = 10;       // percent
+  std::uint64_t threshold = 0;       // trees with no more triangles get no levels
+  double hysteresis = 10;            // percent
+  std::vector<std::string> methods;  // names of --method
+  bool trunk_given = false, foliage_given = false, quality_given = false, cells_given = false;
   TrunkMethod trunk = TrunkMethod::radii;
   RemovalOrder removal = RemovalOrder::silhouette;
   FoliageMethod foliage = FoliageMethod::collapse;
   CollapseQuality quality = CollapseQuality::balanced;  // of --foliage collapse
-  std::uint32_t cells = 256;                            // of --foliage prune, at most
+  std::uint32_t cells = 256;  // of --foliage prune, at most; fewer for few leaves when not given
   bool lines_points = false;
   int impostor = 0;  // pixels of a view's side; 0: none
   int impostor_views = 8;
@@ -43,6 +46,9 @@ struct Options {
   int views = 42;                   // of --measure and --sweep
   bool measure = false, sweep = false;
 };
+
+// --method lines-points alone: the tree is checked and measured, and gets no spectra.
+bool lines_points_alone(const Options& options);
 
 ToolInfo info();
 void add_options(CLI::App& app, Options& options);

@@ -2,6 +2,7 @@
 
 #include "lib/analysis/lod/discrete_spectra.h"
 #include "lib/analysis/lod/floating_leaves.h"
+#include "lib/analysis/measure/surface_distance.h"
 #include "lib/formats/spectrum_file.h"
 #include "lib/formats/tree_file.h"
 #include "tools/lodbake/column_meanings.h"
@@ -77,8 +78,36 @@ std::vector<std::string> labels(const std::vector<LodLevel>& levels) {
   return out;
 }
 
-void report_levels(const Tree& tree, const LodSpectra& spectra, Report& report) {
+// What was asked for and is not to be had.
+void warn_of_levels(const Options& options, const LodSpectra& spectra,
+                    const std::vector<std::uint64_t>& floating, Context& context) {
+  const std::string file = options.input.string();
+  const std::vector<double> shares = asked_shares(options);
+  const double full = spectra.schedule.empty() ? 0 : spectra.schedule.front().triangles;
+  for (std::size_t i = 0; i < spectra.discrete.size(); ++i) {
+    const LodLevel& level = spectra.discrete[i];
+    if (i < shares.size()) {
+      const double asked = std::max(std::floor(shares[i] * full), static_cast<double>(options.min_triangles));
+      if (level.triangles > asked)
+        context.warn(
+            fmt::format("{}: level {} has {} triangles, not the {} that were asked for: fewer are not "
+                        "to be had by these methods",
+                        file, i + 1, level.triangles, asked));
+    }
+    if (i > 0 && level.trunk_steps == spectra.discrete[i - 1].trunk_steps &&
+        level.leaf_steps == spectra.discrete[i - 1].leaf_steps)
+      context.warn(fmt::format("{}: levels {} and {} are the same", file, i, i + 1));
+    if (floating[i + 1] > 0)
+      context.warn(
+          fmt::format("{}: {} leaves of level {} float; --trunk radii with --foliage collapse leaves none",
+                      file, floating[i + 1], i + 1));
+  }
+}
+
+void report_levels(const Options& options, const Tree& tree, const LodSpectra& spectra, Context& context) {
+  Report& report = context.report();
   const FloatingLeaves floating(tree, spectra);
+  std::vector<std::uint64_t> counts;
   Table table{.name = "levels",
               .columns = {"Level", "Triangles", "Share", "Trunk", "Leaves", "Error (m)", "From (m)",
                           "Floating leaves"},
@@ -87,6 +116,7 @@ void report_levels(const Tree& tree, const LodSpectra& spectra, Report& report) 
   const std::vector<LodLevel> levels = with_full_detail(spectra);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const LodLevel& l = levels[i];
+    counts.push_back(floating.count(l));
     const auto part = [](const Spectrum& s, std::uint32_t steps) {
       return s.counts.empty() ? 0 : s.counts[steps];
     };
@@ -94,10 +124,11 @@ void report_levels(const Tree& tree, const LodSpectra& spectra, Report& report) 
                           number(full > 0 ? l.triangles / full : 1),
                           fmt::format("{}", part(spectra.trunk, l.trunk_steps)),
                           fmt::format("{}", part(spectra.leaves, l.leaf_steps)), number(l.error),
-                          number(i == 0 ? 0 : l.distance), fmt::format("{}", floating.count(l))});
+                          number(i == 0 ? 0 : l.distance), fmt::format("{}", counts.back())});
   }
   report.tables.push_back(std::move(table));
-  Curve curve{.name = "error bound", .x = "triangles", .y = "metres", .points = {}};
+  warn_of_levels(options, spectra, counts, context);
+  Curve curve{.name = "estimated error", .x = "triangles", .y = "metres", .points = {}};
   for (const LodLevel& l : spectra.schedule)
     curve.points.push_back({.label = {}, .x = static_cast<double>(l.triangles), .y = l.error});
   report.curves.push_back(std::move(curve));
@@ -105,13 +136,17 @@ void report_levels(const Tree& tree, const LodSpectra& spectra, Report& report) 
 
 Result<void> check_errors(const Options& options, const LodSpectra& spectra) {
   if (!options.max_error) return {};
+  const DrawnMesh source = drawn_level(spectra, {});
   for (std::size_t i = 0; i < spectra.discrete.size(); ++i) {
     const LodLevel& level = spectra.discrete[i];
-    if (level.error <= *options.max_error) continue;
-    return fail(Fault::limit, options.input.string(),
-                fmt::format("level {} ({} triangles) errs by up to {:.4g} m, --max-error allows {:.4g}",
-                            i + 1, level.triangles, level.error, *options.max_error),
-                "ask for more triangles, or allow more error");
+    const SurfaceDistances d = surface_distance(source, drawn_level(spectra, level));
+    const double error = std::max(d.from_level.max, d.from_source.max);
+    if (error <= *options.max_error) continue;
+    return fail(
+        Fault::limit, options.input.string(),
+        fmt::format("level {} ({} triangles) is measured to err by {:.4g} m, --max-error allows {:.4g}",
+                    i + 1, level.triangles, error, *options.max_error),
+        "ask for more triangles, or allow more error");
   }
   return {};
 }
@@ -176,13 +211,20 @@ Result<void> run(const Options& options, Context& context) {
   }
   const TreeLooks looks(*tree, options.input, context);
   if (auto right = check_lines_points(options, *file); !right) return right;
+  if (lines_points_alone(options)) {
+    report_projections(*tree, options.views, context);
+    return write_without_levels(options, *file, *packed, context);
+  }
+  if (options.cells_given && options.foliage != FoliageMethod::prune && !options.sweep)
+    context.warn("--cells is of --foliage prune, and leaves collapse: it changes nothing");
   auto baked = make_spectra(*tree, looks.looks(), options, context);
   if (!baked) return std::unexpected(baked.error());
   LodSpectra* spectra = &baked->spectra;
   {
     Stage stage = context.stage("levels");
-    choose_levels(options, tree->header.bounds.extent().y, *spectra);
-    report_levels(*tree, *spectra, context.report());
+    if (auto chosen = choose_levels(options, tree->header.bounds.extent().y, *spectra); !chosen)
+      return chosen;
+    report_levels(options, *tree, *spectra, context);
     // Where only the near border was asked for, the far one is that of the levels.
     if (baked->cells && options.near && !options.far)
       baked->cells->parameters.far = std::max(spectra->far, baked->cells->parameters.near);
@@ -195,7 +237,7 @@ Result<void> run(const Options& options, Context& context) {
     baked->impostor = std::move(*impostor);
   }
   const std::vector<LodLevel> levels = with_full_detail(*spectra);
-  if (options.measure) measure_levels(*spectra, looks.looks(), levels, options, context);
+  if (options.measure) measure_levels(*tree, *spectra, looks.looks(), levels, options, context);
   if (options.sweep) sweep(*tree, *spectra, looks.looks(), options, context);
   if (!context.options().html.empty()) {
     Stage stage = context.stage("pictures");

@@ -9,6 +9,7 @@
 #include "lib/analysis/lod/trunk_radii.h"
 #include "tools/lodbake/level_pictures.h"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,8 @@
 
 namespace copse::lodbake {
 namespace {
+
+constexpr std::size_t k_leaves_a_cell = 32;  // at least, where --cells is not given
 
 // By edges, every triangle hangs on the child radius of its segment.
 Spectrum trunk_by_edges(const Tree& tree, const Options& options) {
@@ -58,8 +61,10 @@ Spectrum leaf_spectrum(const Tree& tree, const Looks& looks, const Options& opti
   stage.items(tree.leaves.triangles.size(), "triangles");
   if (options.foliage == FoliageMethod::collapse || tree.leaves.triangles.empty())
     return collapsed(tree, looks, options, context);
+  // Every cell keeps a leaf: a small crown in many cells would not be pruned at all.
+  const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(1, tree.leaf_count() / k_leaves_a_cell));
   cells = prune_foliage(tree, looks,
-                        {.cells = options.cells,
+                        {.cells = options.cells_given ? options.cells : std::min(options.cells, most),
                          .views = options.views,
                          .seed = context.options().seed,
                          .near = options.near.value_or(0),
@@ -83,9 +88,10 @@ Result<BakedSpectra> make_spectra(const Tree& tree, const Looks& looks, const Op
     pictures.emplace(spectra, looks);
     error = [&](const TriedLevel& level) { return pictures->error(level); };
   }
-  // Pruned leaves go a cell at a time, all over the crown: they do not wait for their twigs.
+  // Leaves wait for their twigs where twigs go one by one. Edge collapses move all of the trunk a little, and
+  // pruned leaves go all over the crown: nothing could go on.
   std::vector<std::uint32_t> held_until;
-  if (both && spectra.leaves.method != LodMethod::prune)
+  if (both && spectra.trunk.method == LodMethod::radii && spectra.leaves.method == LodMethod::collapse)
     held_until = FloatingLeaves(tree, spectra).held_until();
   couple(spectra, error, {.min_triangles = options.min_triangles, .held_until = held_until});
   stage.items(spectra.schedule.size(), "knots");

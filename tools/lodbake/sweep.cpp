@@ -19,6 +19,15 @@ namespace {
 
 constexpr double k_shares[] = {0.5, 0.25, 0.1, 0.05, 0.02};
 
+// Of every vertex the material of a triangle that has it: the simplifier knows none, but keeps vertices.
+std::vector<std::uint32_t> vertex_materials(const DrawnMesh& mesh) {
+  std::vector<std::uint32_t> out(mesh.positions.size(), k_none);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const std::uint32_t v : mesh.triangles[t])
+      if (out[v] == k_none) out[v] = mesh.material[t];
+  return out;
+}
+
 // meshoptimizer's simplifier, its error limit off, as its users call it on an indexed mesh.
 DrawnMesh simplified(const DrawnMesh& mesh, std::uint64_t triangles) {
   if (mesh.triangles.empty()) return mesh;
@@ -31,9 +40,12 @@ DrawnMesh simplified(const DrawnMesh& mesh, std::uint64_t triangles) {
                                   3 * triangles, 1e9f, 0, &error));
   DrawnMesh out = mesh;
   out.triangles.clear(), out.material.clear();
+  const std::vector<std::uint32_t> material = vertex_materials(mesh);
   for (std::size_t i = 0; i < indices.size(); i += 3) {
     out.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
-    out.material.push_back(mesh.material.empty() ? k_none : mesh.material[0]);
+    // What most of its corners have, the first one's of three that differ.
+    const std::uint32_t a = material[indices[i]], b = material[indices[i + 1]], c = material[indices[i + 2]];
+    out.material.push_back(b == c ? b : a);
   }
   return out;
 }
@@ -45,13 +57,7 @@ DrawnMesh peer(const LodSpectra& spectra, std::uint64_t target, bool whole) {
   if (whole) {
     DrawnMesh all = trunk;
     append(all, leaves);
-    const auto trunk_vertices = static_cast<std::uint32_t>(trunk.positions.size());
-    DrawnMesh out = simplified(all, target);
-    const std::uint32_t bark = trunk.material.empty() ? k_none : trunk.material[0],
-                        leaf = leaves.material.empty() ? k_none : leaves.material[0];
-    for (std::size_t t = 0; t < out.triangles.size(); ++t)
-      out.material[t] = out.triangles[t][0] < trunk_vertices ? bark : leaf;
-    return out;
+    return simplified(all, target);
   }
   const double share =
       static_cast<double>(target) / static_cast<double>(trunk.triangles.size() + leaves.triangles.size());

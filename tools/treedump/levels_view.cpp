@@ -67,7 +67,7 @@ std::string spectrum_text(const Spectrum& s, std::uint64_t bytes) {
 }
 
 std::string level_text(const LodLevel& level, std::uint64_t full) {
-  return fmt::format("{} ({}), from {} on, errs by {} at most", count_text(level.triangles, "triangle"),
+  return fmt::format("{} ({}), from {} on, errs by about {}", count_text(level.triangles, "triangle"),
                      share_text(level.triangles, full), metres_text(level.distance),
                      metres_text(level.error));
 }
