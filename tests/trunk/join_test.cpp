@@ -21,6 +21,21 @@ TEST(Join, MergesRingsInOnePlaceAndMakesTheirLimbsOne) {
   EXPECT_EQ(merged, 1);
 }
 
+TEST(Join, KeepsTheSameOfTwoRingsWhicheverTheFileHasFirst) {
+  for (const bool swapped : {false, true}) {
+    Limbs limbs;
+    const auto lower = [&] { add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 0.9, 0.8}); };
+    const auto upper = [&] { add_limb(limbs, {1e-4, 2, 0}, {0, 1, 0}, {0.80005, 0.7, 0.6}); };
+    swapped ? upper() : lower();
+    swapped ? lower() : upper();
+    LimbSegments segments(limbs);
+    join(limbs, segments);
+    const std::uint32_t joint = limbs.alive(swapped ? 0 : 2);
+    EXPECT_EQ(limbs.centre[joint].x, 0);
+    EXPECT_EQ(limbs.diameter[joint], 0.8);
+  }
+}
+
 TEST(Join, LeavesSiblingsApartThatBeginInOnePlace) {
   Limbs limbs;
   add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 0.5, 0.2});

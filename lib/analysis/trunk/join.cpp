@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace copse {
@@ -83,12 +84,25 @@ class Joints {
     const std::uint32_t limb_a = find(limbs_.limb[a]), limb_b = find(limbs_.limb[b]);
     if (limb_a == limb_b) return;
     if (rings_[limb_a] > rings_[limb_b] || (rings_[limb_a] == rings_[limb_b] && a < b)) std::swap(a, b);
+    take_lesser(a, b);
     merge_rings(limbs_, a, b);
     sets_.unite(limb_a, limb_b);
     rings_[find(limb_a)] = rings_[limb_a] + rings_[limb_b];
   }
 
  private:
+  // The two differ by rounding, or as polygons of one circle do. Which of them stays must not depend on the
+  // order of the file: the lesser by position.
+  void take_lesser(std::uint32_t from, std::uint32_t ring) {
+    const auto key = [&](std::uint32_t r) {
+      const Double3& c = limbs_.centre[r];
+      return std::tuple(c.x, c.y, c.z, limbs_.diameter[r]);
+    };
+    if (key(ring) <= key(from)) return;
+    limbs_.centre[ring] = limbs_.centre[from];
+    limbs_.diameter[ring] = limbs_.diameter[from];
+  }
+
   Limbs& limbs_;
   UnionFind sets_;
   std::vector<std::uint32_t> rings_;
