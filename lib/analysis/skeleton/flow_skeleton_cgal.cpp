@@ -125,9 +125,23 @@ void fill_holes(ClosedMesh& mesh) {
   }
 }
 
+// To the edges of an even mesh of so many triangles. False for a sliver, which would take more than four
+// times as many edges: on it the flow, which splits wide angles at every step, goes on without end.
+bool cut_long_edges(ClosedMesh& mesh, double triangles) {
+  const double even = std::sqrt(PMP::area(mesh) / triangles * 4 / std::sqrt(3.0));
+  double all = 0;
+  for (const auto e : mesh.edges()) all += PMP::edge_length(mesh.halfedge(e), mesh);
+  if (!(all <= 2 * triangles * even)) return false;
+  PMP::split_long_edges(mesh.edges(), even, mesh);
+  return true;
+}
+
 // Fills the borders, turns the mesh inside in, thins it out to what the flow can carry, and cuts long edges,
-// as skeleton points come from vertices. False when that does not give a closed mesh with something inside.
-bool close(ClosedMesh& mesh) {
+// as skeleton points come from vertices: into as many triangles as the piece's share of the surface is due,
+// or a heap of many little pieces would flow for minutes. False when that does not give a closed mesh with
+// something inside.
+bool close(ClosedMesh& mesh, double share) {
+  const double triangles = share * static_cast<double>(k_flow_triangles_at_least);
   fill_holes(mesh);
   if (mesh.number_of_faces() < 4 || !CGAL::is_closed(mesh)) return false;
   const double volume = PMP::volume(mesh);
@@ -138,14 +152,8 @@ bool close(ClosedMesh& mesh) {
     CGAL::Surface_mesh_simplification::edge_collapse(
         mesh, CGAL::Surface_mesh_simplification::Count_stop_predicate<ClosedMesh>(k_flow_triangles * 3 / 2));
   }
-  if (mesh.number_of_faces() < k_flow_triangles_at_least) {
-    // Edges of an even mesh of that many triangles; where some are far longer than that, longer ones.
-    const double even =
-        std::sqrt(area / static_cast<double>(k_flow_triangles_at_least) * 4 / std::sqrt(3.0));
-    double all = 0;
-    for (const auto e : mesh.edges()) all += PMP::edge_length(e, mesh);
-    PMP::split_long_edges(mesh.edges(), std::max(even, all / static_cast<double>(k_flow_triangles)), mesh);
-  }
+  if (static_cast<double>(mesh.number_of_faces()) < triangles && !cut_long_edges(mesh, triangles))
+    return false;
   mesh.collect_garbage();
   return true;
 }
@@ -261,8 +269,12 @@ CurveSkeleton flow_skeleton(const Surface& surface) {
   const Frame frame = frame_of(surface);
   const CreationOrderBlock block;
   try {
-    for (ClosedMesh& mesh : separate(orient(surface, frame))) {
-      if (!close(mesh)) continue;
+    std::vector<ClosedMesh> pieces = separate(orient(surface, frame));
+    const double all = std::accumulate(pieces.begin(), pieces.end(), 0.0, [](double n, const ClosedMesh& m) {
+      return n + static_cast<double>(m.number_of_faces());
+    });
+    for (ClosedMesh& mesh : pieces) {
+      if (!close(mesh, static_cast<double>(mesh.number_of_faces()) / all)) continue;
       Flow::Skeleton flowed;
       Flow flow(mesh);
       // Towards the middle by Voronoi poles: CGAL asks which of them lie inside, and on meshes that intersect

@@ -123,9 +123,8 @@ inline constexpr double k_fork_before = 1, k_fork_behind = 0.25;
 // Triangles: a piece of more is thinned out to so many before it flows; each step factorises a matrix of that
 // size.
 inline constexpr std::size_t k_flow_triangles = 8000;
-// Volume over area^1.5 (a ball's is 0.094, a rod's of aspect n 0.2 / sqrt(n)) from which on there is an inside
-// to flow to. Below are slivers and sheets, whose equations are as good as singular.
-inline constexpr double k_flow_thinnest = 1e-4;
+// Volume over area^1.5 (a ball's is 0.094) from which on there is an inside to flow to: below is rounding.
+inline constexpr double k_flow_thinnest = 1e-9;
 // Triangles: the long edges of a piece of fewer are cut: the flow needs vertices round a limb to find its
 // middle.
 inline constexpr std::size_t k_flow_triangles_at_least = 2000;
