@@ -4,6 +4,8 @@
 #include "lib/analysis/volumes/minimal_sphere.h"
 #include "tests/volumes/point_sets.h"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 namespace copse {
@@ -149,6 +151,26 @@ TEST(Enclose, ACylinderOfNoLengthGetsTheThinnestHeightThatIsCertified) {
   const auto& t = std::get<Cylinder<float>>(across->volume);
   EXPECT_LE(length(to_double(t.b) - to_double(t.a)), 3e-3);
   EXPECT_LE(t.radius, 1.00001f);
+}
+
+// A unit of the length is a hundredth of the radius: none of it may get into the radius.
+TEST(Enclose, ACylinderRoundANeedleIsWithinAFewUnitsOfTheLeastRadiusThatIsCertified) {
+  for (const double thin : {1e-2, 1e-4, 1e-6}) {
+    Points needle;
+    for (int i = 0; i < 12 * 21; ++i) {
+      const double a = i % 12 * std::numbers::pi / 6;
+      needle.push_back({thin * std::cos(a), thin * std::sin(a), 5.0 * (i / 12) / 20});
+    }
+    for (const Points& points : {needle, turned(needle), scaled(turned(needle), 1, {0.3, -0.2, 0.1})}) {
+      const Double3 a = (points[0] + points[6]) * 0.5, b = (points[240] + points[246]) * 0.5;
+      const auto e = enclose(Cylinder<double>{a, b, thin}, points);
+      ASSERT_TRUE(e);
+      Cylinder<float> c = std::get<Cylinder<float>>(e->volume);
+      EXPECT_TRUE(certify(c, points).holds()) << thin;
+      for (int unit = 0; unit < 3; ++unit) c.radius = std::nextafter(c.radius, 0.0f);
+      EXPECT_FALSE(certify(c, points).holds()) << thin << ": " << c.radius;
+    }
+  }
 }
 
 TEST(Enclose, ABallTooSmallForItsPointsIsMadeLargeEnough) {

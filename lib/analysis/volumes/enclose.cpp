@@ -148,9 +148,8 @@ Lozenge<float> store(const Lozenge<double>& v, Points points, int growth) {
   return l;
 }
 
-// Ends are moved outward along the axis, which turns it a little once they are rounded, so the radius comes
-// last.
-Cylinder<float> store(const Cylinder<double>& v, Points points, int growth) {
+// Ends moved outward along the axis, which turns it a little once they are rounded; no radius yet.
+Cylinder<float> with_ends(const Cylinder<double>& v, Points points, int growth) {
   const Near frame(points, narrow(v.a));
   const Double3 axis = normalized(v.b - v.a);
   double low = std::numeric_limits<double>::infinity(), high = -low, size = 0;
@@ -162,20 +161,23 @@ Cylinder<float> store(const Cylinder<double>& v, Points points, int growth) {
   // Units of the coordinates too: ends that round to the same point are no cylinder.
   double pad = pad_of(growth, std::max(frame.out(size), length(from)));
   if (growth > 1) pad = std::max(pad, std::ldexp(k_denormal, growth - 2));
-  Cylinder<float> c{narrow(from + axis * (frame.out(low) - pad)),
-                    narrow(from + axis * (frame.out(high) + pad)), 0};
+  return {narrow(from + axis * (frame.out(low) - pad)), narrow(from + axis * (frame.out(high) + pad)), 0};
+}
+
+// What the points need between these ends.
+struct TubeRadius {
+  double radius = 0, height = 0;
+};
+TubeRadius radius_between(const Cylinder<float>& c, Points points) {
   const Near near(points, c.a);
   const Double3 d = near.in(to_double(c.b));
   const double dd = dot(d, d);
   double squared = 0;
   for (const Double3& p : points) {
-    const Double3 q = near.in(p);
-    const Double3 across = cross(q, d);
+    const Double3 across = cross(near.in(p), d);
     squared = std::max(squared, dot(across, across));
   }
-  const double radius = dd > 0 ? near.out(std::sqrt(squared / dd)) : 0;
-  c.radius = round_up(radius + pad_of(std::min(growth, 3), std::max(radius, near.out(std::sqrt(dd)))));
-  return c;
+  return {dd > 0 ? near.out(std::sqrt(squared / dd)) : 0, near.out(std::sqrt(dd))};
 }
 
 // The factor by which semi-axes must grow so that every point is inside.
@@ -249,20 +251,43 @@ Kdop<float> store(const Kdop<double>& v, Points points, int growth) {
   return k;
 }
 
+// The first growth of `fitted` round `from` that holds `points`.
+template <class V>
+std::optional<Volume<float>> grown(const V& fitted, Points from, Points points, int growths) {
+  for (int growth = 0; growth < growths; ++growth) {
+    const Volume<float> v = store(fitted, from, growth);
+    if (certify(v, points).holds()) return v;
+  }
+  return std::nullopt;
+}
+
+// Of a needle a unit of the length is thick: the ends grow first, with a radius that holds anything, and the
+// radius then for itself, by what double arithmetic has lost of the length, 2^-48, and more of it.
+std::optional<Volume<float>> grown(const Cylinder<double>& fitted, Points from, Points points, int growths) {
+  for (int ends = 0; ends < growths; ++ends) {
+    Cylinder<float> c = with_ends(fitted, from, ends);
+    const TubeRadius least = radius_between(c, from);
+    const double size = std::max(least.radius, least.height);
+    c.radius = round_up(std::min<double>(4 * size, std::numeric_limits<float>::max()));
+    if (!certify(c, points).holds()) continue;
+    for (int growth = 0; growth < growths; ++growth) {
+      c.radius = round_up(least.radius + (growth == 0 ? 0 : std::ldexp(size, growth - 49)));
+      if (certify(c, points).holds()) return c;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Enclosed> enclose(const Volume<double>& fitted, Points points, Points corners) {
-  Enclosed best;
   // From corners only as long as units in the last place are enough.
   constexpr int k_corner_growths = 4;
   for (const Points from : {corners, points}) {
     if (from.empty()) continue;
-    const bool all = from.data() == points.data();
-    for (int growth = 0; growth < (all ? k_growths : k_corner_growths); ++growth) {
-      best.volume = std::visit([&](const auto& v) { return Volume<float>(store(v, from, growth)); }, fitted);
-      best.certified = certify(best.volume, points).holds();
-      if (best.certified) return best;
-    }
+    const int growths = from.data() == points.data() ? k_growths : k_corner_growths;
+    auto volume = std::visit([&](const auto& v) { return grown(v, from, points, growths); }, fitted);
+    if (volume) return Enclosed{std::move(*volume), true};
   }
   return std::nullopt;
 }
