@@ -352,14 +352,19 @@ Cylinder<double> recentred_cylinder(const PointCloud& cloud) {
 BoundedFit<Cylinder<double>> minimal_cylinder(const ConvexHull& hull, const MinimalCylinderOptions& options) {
   if (hull.dimension < 3) return {flat_cylinder(hull), 0};
   Tube best = search(hull, options.deadline);
+  // What is least round a kernel need not be so round all points.
+  Tube whole = tube_along(hull.boundary, best.direction);
   double bound = hull.volume * (1 - k_rounding);
   if (std::isfinite(options.gap)) {
-    CylinderBounder bounder(hull, best, options);
+    MinimalCylinderOptions how = options;
+    how.gap = reachable_gap(options.gap, whole.volume() / best.volume());
+    CylinderBounder bounder(hull, best, how);
     bound = std::max(bound, bounder.run());
     best = bounder.best();
+    const Tube proven = tube_along(hull.boundary, best.direction);
+    if (proven.volume() < whole.volume()) whole = proven;
   }
-  const Cylinder<double> cylinder = cylinder_along(hull.boundary, best.direction);
-  return {cylinder, std::min(bound, best.volume())};
+  return {cylinder_of(whole), std::min(bound, best.volume())};
 }
 
 }  // namespace copse
