@@ -126,6 +126,33 @@ TEST(FitVolumes, KnownVolumesAreFound) {
   EXPECT_NEAR(of(line, VolumeKind::sphere, "minimal").measures.volume, 3226.851027, 1e-2);
 }
 
+// The least of a kind, as the tool keeps it of all methods of a quality.
+double least_of(const Points& points, VolumeKind kind, FitQuality quality) {
+  const auto fitter = VolumeFitter::make(points);
+  double least = std::numeric_limits<double>::infinity();
+  for (const FitMethod& m : fit_methods()) {
+    if (m.kind != kind || (quality == FitQuality::fast ? !m.quick || m.on_hull : !m.least)) continue;
+    if (const auto v = fitter->fit(m, {quality})) least = std::min(least, v->measures.volume);
+  }
+  return least;
+}
+
+TEST(FitVolumes, NoOrientedBoxIsLargerThanTheOneAlongTheAxesAtAnyQuality) {
+  for (const NamedPoints& set : float32_battery()) {
+    const auto fitter = VolumeFitter::make(set.points);
+    const FittedVolume upright = *fitter->fit(fit_methods()[0]);
+    ASSERT_EQ(upright.method.kind, VolumeKind::aabb);
+    double reach = 0;
+    for (const Double3& p : set.points) reach = std::max(reach, length(p));
+    // The middle of a box along the axes is rounded where its corners are not.
+    const double unit = 2 * 0x1p-23 * reach * upright.measures.surface;
+    for (const FitQuality quality : {FitQuality::fast, FitQuality::balanced, FitQuality::exact}) {
+      EXPECT_LE(least_of(set.points, VolumeKind::obb, quality), upright.measures.volume + unit)
+          << set.name << " at quality " << static_cast<int>(quality);
+    }
+  }
+}
+
 // A closed surface over some of the points: what the method that weighs the surface goes by.
 Triangles triangles_over(const Points& points) {
   const ConvexHull hull = convex_hull(make_point_cloud(points).value());

@@ -89,9 +89,10 @@ std::vector<FitMethod> methods_for(const std::vector<FitMethod>& methods, const 
 
 AspectRatios ratios_of(const VolumeFitter& fitter) {
   const auto all = fit_methods();
-  const auto quick =
-      std::find_if(all.begin(), all.end(), [](const FitMethod& m) { return m.kind == VolumeKind::obb; });
-  const auto box = fitter.fit(*quick, {.quality = FitQuality::fast});
+  const auto turned = std::find_if(all.begin(), all.end(), [](const FitMethod& m) {
+    return m.kind == VolumeKind::obb && m.name == "gaussian";
+  });
+  const auto box = fitter.fit(*turned, {.quality = FitQuality::fast});
   if (!box) return {};
   return aspect_ratios(to_double(std::get<OrientedBox<float>>(box->volume).half_extents));
 }

@@ -149,6 +149,12 @@ Fit surface_box_of(const Prepared& p, const FitOptions&) {
   return plain(p.triangles.empty() ? gaussian_box(p.cloud) : surface_box(p.cloud, p.triangles));
 }
 
+// So that no oriented box is larger than the one along the axes.
+OrientedBox<double> upright_box(const PointCloud& cloud) {
+  constexpr std::array<Double3, 3> k_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  return {cloud.box.min * 0.5 + cloud.box.max * 0.5, k_axes, cloud.box.extent() * 0.5};
+}
+
 const std::vector<Entry>& entries() {
   using P = const Prepared&;
   using O = const FitOptions&;
@@ -159,6 +165,7 @@ const std::vector<Entry>& entries() {
       {{K::sphere, "mean", true, false}, [](P p, O) { return plain(mean_sphere(p.cloud)); }},
       {{K::sphere, "ritter", true, false}, [](P p, O) { return plain(extremal_sphere(p.cloud)); }},
       {{K::sphere, "minimal", true, true}, ball_of},
+      {{K::obb, "axis-aligned", true, false}, [](P p, O) { return plain(upright_box(p.cloud)); }},
       {{K::obb, "gaussian", true, false}, [](P p, O) { return plain(gaussian_box(p.cloud)); }},
       {{K::obb, "surface", true, false}, surface_box_of},
       {{K::obb, "hull", true, false, true}, [](P p, O) { return plain(hull_surface_box(p.hull())); }},
