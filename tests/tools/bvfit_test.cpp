@@ -521,6 +521,66 @@ TEST_F(Bvfit, NamesWithLineBreaksAndControlCharactersArePrintedEscaped) {
   }
 }
 
+TEST_F(Bvfit, ATypeThatTheAspectTreePicksButNobodyAskedForIsTold) {
+  const std::vector<std::string> arguments{cube(), "--choose", "aspect", "--aspect-tree", "capsule"};
+  EXPECT_EQ(run(arguments).err, "");
+  std::vector<std::string> without = arguments;
+  without.insert(without.end(), {"--volumes", "sphere,obb"});
+  const Outcome o = run(without);
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(line_count(o.err), 1u) << o.err;
+  EXPECT_NE(o.err.find("not asked for (capsule)"), std::string::npos) << o.err;
+  EXPECT_NE(o.out.find("> obb"), std::string::npos) << o.out;
+}
+
+TEST_F(Bvfit, TuningTellsWhichTreesPickWhatWasNotFitted) {
+  const Outcome o = run({cube(), "--tune", "--volumes", "sphere"});
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.out.find("inf"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("in use   picks types that were not fitted"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("tuned    100.0 % the smallest"), std::string::npos) << o.out;
+}
+
+TEST_F(Bvfit, OfEqualSpheresTheMinimalOneIsChosenAndSaysWhatHoldsIt) {
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{"--methods", "all"}, std::vector<std::string>{"--quality", "fast"}}) {
+    std::vector<std::string> arguments{cube(), "--volumes", "sphere"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    const json set = fitted(arguments)["sets"][0];
+    const json& chosen = set["volumes"][set["chosen"].get<std::size_t>()];
+    EXPECT_EQ(chosen["method"], "minimal");
+    EXPECT_TRUE(chosen.contains("support"));
+  }
+}
+
+TEST_F(Bvfit, TheTableSaysFlatWhereThatChose) {
+  const std::string solid =
+      save("solid.xyz", "0 0 0\n0.8 0.6 0.1\n-0.6 0.8 0.3\n-0.3 -0.9 -0.2\n0.2 0.2 0\n");
+  EXPECT_EQ(run({solid}).out.find("flat"), std::string::npos);
+  const std::string plate = save("plate.xyz", "0 0 0\n1 2 3\n3 2 1\n4 4 4\n");
+  const std::string out = run({plate, "--volumes", "obb,kdop,lozenge"}).out;
+  EXPECT_NE(out.find("flat: the cheapest test"), std::string::npos) << out;
+}
+
+TEST_F(Bvfit, AKernelIsNotCalledTheHull) {
+  std::string sphere;
+  constexpr int k_points = 12000;  // more corners than the hull is built of
+  for (int i = 0; i < k_points; ++i) {
+    const double z = (i + 0.5) / k_points * 2 - 1, r = std::sqrt(1 - z * z), a = 2.399963229728653 * i;
+    sphere += std::to_string(r * std::cos(a)) + " " + std::to_string(r * std::sin(a)) + " " +
+              std::to_string(z) + "\n";
+  }
+  const std::string file = save("sphere.xyz", sphere);
+  const json set = fitted({file, "--volumes", "obb", "--methods", "hull"})["sets"][0];
+  EXPECT_LT(set["hull_points"].get<int>(), k_points);
+  EXPECT_GT(set["hull_loss"].get<double>(), 0);
+  EXPECT_LT(set["hull_loss"].get<double>(), 1e-2);
+  EXPECT_NE(run({file, "--volumes", "obb", "--methods", "hull"}).out.find(", a kernel of "),
+            std::string::npos);
+  EXPECT_EQ(fitted({cube()})["sets"][0]["hull_loss"], 0);
+  EXPECT_TRUE(fitted({cube(), "--quality", "fast"})["sets"][0]["hull_loss"].is_null());
+}
+
 TEST_F(Bvfit, MistakesAreOneLineWithTheRightStatus) {
   const std::string mesh = cube();
   const std::tuple<std::vector<std::string>, int, const char*> mistakes[] = {
@@ -537,7 +597,9 @@ TEST_F(Bvfit, MistakesAreOneLineWithTheRightStatus) {
       {{mesh, "--sway", "5"}, 1, "moves"},
       {{mesh, "-o", folder_.file("x.stree")}, 1, "in a tree only"},
       {{mesh, "-o", folder_.file("x.txt")}, 2, "extension"},
-      {{mesh, "--aspect-tree", "ratio9"}, 2, "character 1"},
+      {{mesh, "--choose", "aspect", "--aspect-tree", "ratio9"}, 2, "character 1"},
+      {{mesh, "--aspect-tree", "seed"}, 2, "add --choose aspect or --tune"},
+      {{mesh, "--export-glb", folder_.file("x.gltf")}, 2, "name it .glb"},
       {{mesh, "--sweep", "-q"}, 2, "nothing is left of --sweep"},
       {{mesh, "--sweep", "-o", "-"}, 2, "leave -o - out"},
       {{mesh, "--compare-hierarchies", "-q"}, 2, "add --report or --html"},

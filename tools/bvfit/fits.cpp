@@ -61,6 +61,11 @@ Candidate candidate_of(const FittedVolume& v) {
   return c;
 }
 
+bool is_as_good_minimal(const FittedVolume& v, const FittedVolume& than) {
+  return v.method.kind == VolumeKind::sphere && than.method.kind == VolumeKind::sphere && v.method.least &&
+         v.measures.volume <= than.measures.volume;
+}
+
 // The smallest of each kind, where only the best of several quick methods is wanted.
 void keep_smallest(std::vector<FittedVolume>& volumes) {
   std::vector<FittedVolume> kept;
@@ -68,23 +73,19 @@ void keep_smallest(std::vector<FittedVolume>& volumes) {
     const bool same = !kept.empty() && kept.back().method.kind == v.method.kind;
     if (!same) {
       kept.push_back(std::move(v));
-    } else if (v.measures.volume < kept.back().measures.volume) {
+    } else if (v.measures.volume < kept.back().measures.volume || is_as_good_minimal(v, kept.back())) {
       kept.back() = std::move(v);
     }
   }
   volumes = std::move(kept);
 }
 
-// With --choose aspect only the box, which the ratios come from, and what the tree picks are fitted.
-std::vector<FitMethod> methods_for(const std::vector<FitMethod>& methods, const Choosing& choosing,
-                                   const AspectRatios& ratios) {
-  if (choosing.criterion != Criterion::aspect) return methods;
-  const VolumeKind kind = choosing.aspect.choose(ratios);
+std::vector<FitMethod> methods_of(VolumeKind kind, const std::vector<FitMethod>& methods) {
   std::vector<FitMethod> out;
   for (const FitMethod& m : methods) {
     if (m.kind == kind) out.push_back(m);
   }
-  return out.empty() ? methods : out;
+  return out;
 }
 
 AspectRatios ratios_of(const VolumeFitter& fitter) {
@@ -153,7 +154,29 @@ Result<Choosing> choosing(const Options& options) {
 std::size_t choose_volume(const SetFit& fit, const Choosing& choosing) {
   std::vector<Candidate> candidates;
   for (const FittedVolume& v : fit.volumes) candidates.push_back(candidate_of(v));
-  return choose(candidates, choosing.criterion, choosing.costs, choosing.expected, fit.size);
+  std::size_t best = choose(candidates, choosing.criterion, choosing.costs, choosing.expected, fit.size);
+  for (std::size_t i = 0; i < fit.volumes.size(); ++i) {
+    if (is_as_good_minimal(fit.volumes[i], fit.volumes[best])) best = i;
+  }
+  return best;
+}
+
+std::string not_asked_text(std::span<const SetFit> fits) {
+  std::size_t sets = 0;
+  std::string names;
+  for (std::size_t kind = 0; kind < k_volume_names.size(); ++kind) {
+    const auto missed =
+        static_cast<std::size_t>(std::count_if(fits.begin(), fits.end(), [&](const SetFit& f) {
+          return f.not_asked == static_cast<VolumeKind>(kind);
+        }));
+    if (missed > 0) names += fmt::format("{}{}", names.empty() ? "" : ", ", k_volume_names[kind]);
+    sets += missed;
+  }
+  if (sets == 0) return "";
+  return fmt::format(
+      "for {} of {} sets the aspect tree picks what was not asked for ({}), so the least "
+      "volume was chosen: add it to --volumes",
+      sets, fits.size(), names);
 }
 
 std::string unproven_text(std::span<const SetFit> fits) {
@@ -208,7 +231,16 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
   fit.points = set.points.size();
   fit.size = length(fitter->cloud().box.extent()) * fitter->cloud().frame.scale;
   if (choosing.criterion == Criterion::aspect || options.tune) fit.ratios = ratios_of(*fitter);
-  const std::vector<FitMethod> wanted = methods_for(methods, choosing, fit.ratios);
+  std::vector<FitMethod> wanted = methods;
+  if (choosing.criterion == Criterion::aspect) {  // only what the tree picks is fitted
+    const VolumeKind picked = choosing.aspect.choose(fit.ratios);
+    std::vector<FitMethod> of_it = methods_of(picked, methods);
+    if (of_it.empty()) {
+      fit.not_asked = picked;
+    } else {
+      wanted = std::move(of_it);
+    }
+  }
   // What quick methods leave of their shares is the searches'.
   std::vector<std::size_t> order(wanted.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -220,7 +252,10 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
     if (order.begin() + static_cast<std::ptrdiff_t>(k) == needs_hull) fitter->hull(deadline.share(3));
     fitted[order[k]] = fitter->fit(wanted[order[k]], {options.quality, deadline.share(order.size() - k)});
   }
-  if (fitter->has_hull()) fit.hull_points = fitter->hull().vertices.size();
+  if (fitter->has_hull()) {
+    fit.hull_points = fitter->hull().vertices.size();
+    fit.hull_loss = fitter->hull().loss * fitter->cloud().frame.scale;
+  }
   fit.hull_seconds = fitter->hull_seconds();
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (fitted[i]) {
@@ -233,6 +268,10 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
   fitter->share_lower_bounds(fit.volumes);
   if (options.methods == std::vector<std::string>{"best"}) keep_smallest(fit.volumes);
   fit.chosen = choose_volume(fit, choosing);
+  const VolumeMeasures& chosen = fit.volumes[fit.chosen].measures;
+  fit.chosen_as_flat = choosing.criterion != Criterion::expected && is_flat(chosen, fit.size) &&
+                       std::any_of(fit.volumes.begin(), fit.volumes.end(),
+                                   [&](const FittedVolume& v) { return v.measures.volume < chosen.volume; });
   return fit;
 }
 

@@ -20,12 +20,15 @@ struct SetFit {
   float sway = 0;  // of an envelope, degrees
   std::size_t points = 0;
   std::optional<std::size_t> hull_points;  // none: no method needed the hull
+  double hull_loss = 0;                    // above 0: they are a kernel's, and points are so far outside it
   double size = 0;                         // the diagonal of its box
   AspectRatios ratios;
   double hull_seconds = 0;
   std::vector<FittedVolume> volumes;
   std::vector<VolumeKind> dropped;  // types of volumes that float32 cannot hold
   std::size_t chosen = 0;
+  bool chosen_as_flat = false;          // though another volume is smaller: none has thickness
+  std::optional<VolumeKind> not_asked;  // what the aspect tree picks, where no method of it was wanted
 };
 
 // What --volumes and --methods name, by kind, the cheapest method first. An error (usage) for unknown names.
@@ -62,7 +65,12 @@ std::string unproven_text(std::span<const SetFit> fits);
 // are.
 std::string dropped_text(std::span<const SetFit> fits);
 
-// The index of the volume to test with.
+// With --choose aspect: of how many sets the tree picks a type that was not asked for, in a sentence; empty
+// when of none.
+std::string not_asked_text(std::span<const SetFit> fits);
+
+// The index of the volume to test with; of spheres as good as one another the minimal one, which knows what
+// holds it.
 std::size_t choose_volume(const SetFit& fit, const Choosing& choosing);
 
 }  // namespace copse::bvfit

@@ -13,6 +13,7 @@
 #include "tools/common/outputs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -45,6 +46,12 @@ Result<void> check_printed(const Options& options, const CommonOptions& common) 
 }
 
 Result<void> check_options(const Options& options) {
+  if (!options.aspect_tree.empty() && options.choose != Criterion::aspect && !options.tune)
+    return fail(Fault::usage, "", "--aspect-tree changes nothing here",
+                "add --choose aspect or --tune, or leave it out");
+  if (!options.export_glb.empty() && !is_stdout(options.export_glb) &&
+      options.export_glb.extension() != ".glb")
+    return fail(Fault::usage, options.export_glb.string(), "--export-glb writes GLB alone", "name it .glb");
   if (options.output.empty() || is_stdout(options.output) || is_tree_name(options.output) ||
       options.output.extension() == ".json")
     return {};
@@ -123,6 +130,8 @@ std::string tune(const Work& work, const Options& options) {
   const AspectTree tuned = tune_aspect_tree(samples);
   const auto line = [&](const char* what, const AspectTree& tree) {
     const AspectAgreement a = agreement(tree, samples);
+    if (!std::isfinite(a.excess))
+      return fmt::format("    {:<8} picks types that were not fitted: {}\n", what, tree.text());
     return fmt::format("    {:<8} {:>5.1f} % the smallest, {:.3g} % over it on average: {}\n", what,
                        100 * a.agree, 100 * a.excess, tree.text());
   };
@@ -220,6 +229,7 @@ Result<void> run(const Options& options, Context& context) {
   if (!more) return std::unexpected(more.error());
   if (auto ok = named(hierarchy_stage(work, options, context)); !ok) return ok;
   if (const std::string text = dropped_text(work.sets); !text.empty()) context.warn(text);
+  if (const std::string text = not_asked_text(work.sets); !text.empty()) context.warn(text);
   if (options.quality == FitQuality::exact) {
     if (const std::string text = unproven_text(work.sets); !text.empty()) context.warn(text);
   }

@@ -35,16 +35,20 @@ std::string points_text(std::span<const Double3> points) {
 
 std::string set_text(const SetFit& set) {
   std::string out = fmt::format("{}: {} points", printable(set.name), set.points);
-  if (set.hull_points)
-    out += fmt::format(", {} on the hull ({})", *set.hull_points, seconds_text(set.hull_seconds));
+  if (set.hull_points) {
+    out += set.hull_loss > 0 ? fmt::format(", a kernel of {} for the hull", *set.hull_points)
+                             : fmt::format(", {} on the hull", *set.hull_points);
+    out += fmt::format(" ({})", seconds_text(set.hull_seconds));
+  }
   out += "\n\n";
   out += fmt::format("    {:<10} {:<17} {:>12} {:>12} {:>9}  {:<9}\n", "type", "method", "volume",
                      "over bound", "time", "certified");
   for (std::size_t i = 0; i < set.volumes.size(); ++i) {
     const FittedVolume& v = set.volumes[i];
-    out += fmt::format("  {} {:<10} {:<17} {:>12.6g} {:>12} {:>9}  {:<9}\n", i == set.chosen ? '>' : ' ',
+    out += fmt::format("  {} {:<10} {:<17} {:>12.6g} {:>12} {:>9}  {:<9}{}\n", i == set.chosen ? '>' : ' ',
                        name_of(v.method.kind), v.method.name, v.measures.volume, excess_text(v),
-                       seconds_text(v.seconds), v.certified ? "yes" : "NO");
+                       seconds_text(v.seconds), v.certified ? "yes" : "NO",
+                       i == set.chosen && set.chosen_as_flat ? "  flat: the cheapest test" : "");
   }
   for (const FittedVolume& v : set.volumes) {
     if (!v.support.empty())

@@ -33,8 +33,7 @@ Result<ReadVolumes> volumes_of_tree(const fs::path& path) {
     for (std::uint32_t i = s.first; i < s.first + s.count; ++i) {
       const VolumeRecord& r = volumes->volumes[i];
       set.volumes.push_back({std::string(name_of(r.kind)), std::string(r.method_name()),
-                             to_double(volumes->volume(i)), (r.flags & VolumeRecord::certified) != 0,
-                             r.volume, r.lower_bound});
+                             to_double(volumes->volume(i)), r.volume, r.lower_bound});
     }
     read.sets.push_back(std::move(set));
   }

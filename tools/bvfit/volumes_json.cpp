@@ -3,6 +3,7 @@
 #include "lib/analysis/volumes/certify.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -215,7 +216,6 @@ Result<ReadVolume> read_volume(const nlohmann::json& j, const std::string& file,
         "write it as bvfit does");
   }
   v.says_volume = number_of(j, "volume"), v.says_bound = number_of(j, "lower_bound");
-  v.says_certified = j.contains("certified") && j["certified"].is_boolean() && j["certified"].get<bool>();
   return v;
 }
 
@@ -237,6 +237,9 @@ std::string volumes_json(const Input& input, std::span<const SetFit> sets, std::
   const auto hull_points = [](const SetFit& set) {
     return set.hull_points ? std::to_string(*set.hull_points) : "null";
   };
+  const auto hull_loss = [](const SetFit& set) {
+    return set.hull_points && std::isfinite(set.hull_loss) ? Json(set.hull_loss).dump() : "null";
+  };
   std::string out =
       fmt::format("{{\"schema\":\"copse.volumes/1\",\"input\":{},\"points\":{},\"hull_points\":{},\n",
                   Json(input.name).dump(-1, ' ', false, Json::error_handler_t::replace), input.points.size(),
@@ -248,9 +251,10 @@ std::string volumes_json(const Input& input, std::span<const SetFit> sets, std::
     const SetFit& set = sets[s];
     out += fmt::format(
         "  "
-        "{{\"name\":{},{}\"points\":{},\"hull_points\":{},\"chosen\":{},\"criterion\":\"{}\",\"volumes\":[\n",
+        "{{\"name\":{},{}\"points\":{},\"hull_points\":{},\"hull_loss\":{},\"chosen\":{},\"criterion\":\"{}"
+        "\",\"volumes\":[\n",
         Json(set.name).dump(-1, ' ', false, Json::error_handler_t::replace), motion_json(set), set.points,
-        hull_points(set), set.chosen, criterion_name(options.choose));
+        hull_points(set), hull_loss(set), set.chosen, criterion_name(options.choose));
     for (std::size_t v = 0; v < set.volumes.size(); ++v) {
       out += "   " + volume_json(set.volumes[v], options.times).dump() +
              (v + 1 < set.volumes.size() ? ",\n" : "\n");

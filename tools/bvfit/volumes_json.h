@@ -20,7 +20,6 @@ std::string volumes_json(const Input& input, std::span<const SetFit> sets, std::
 struct ReadVolume {
   std::string type, method;
   Volume<double> volume;
-  bool says_certified = false;
   std::optional<double> says_volume = std::nullopt, says_bound = std::nullopt;
 };
 struct ReadSet {
