@@ -240,7 +240,12 @@ struct Later {
 class CylinderBounder {
  public:
   CylinderBounder(const ConvexHull& hull, const Tube& best, const MinimalCylinderOptions& options)
-      : points_(hull.vertices), best_(best), options_(options), inner_(inner_radius(hull)) {
+      : points_(hull.vertices),
+        all_(hull.boundary),
+        best_(best),
+        whole_(tube_along(all_, best.direction)),
+        options_(options),
+        inner_(inner_radius(hull)) {
     const Axes base =
         rotated(axes_along(best.direction, any_normal(best.direction)), Double3{0, 0.0137, -0.0231});
     for (int i = 0; i < 3; ++i) sides_[i] = {base[i], base[(i + 1) % 3], base[(i + 2) % 3]};
@@ -264,9 +269,13 @@ class CylinderBounder {
     return std::min(open, best_.volume());
   }
   const Tube& best() const { return best_; }
+  const Tube& whole() const { return whole_; }
 
  private:
-  double target() const { return best_.volume() / (1 + options_.gap); }
+  // What a kernel gives away counts as a part of the gap.
+  double target() const {
+    return best_.volume() / (1 + reachable_gap(options_.gap, whole_.volume() / best_.volume()));
+  }
 
   Double3 direction(const Cell& c, double x, double y) const {
     const Axes& s = sides_[c.side];
@@ -285,7 +294,7 @@ class CylinderBounder {
     const Tube t = tube_along(points_, middle);
     if (t.volume() < best_.volume() * (1 - k_rounding)) {
       const Tube low = descend(points_, t, first_step(t) * 0.1, 1e-6 * first_step(t));
-      if (low.volume() < best_.volume()) best_ = low;
+      if (low.volume() < best_.volume()) improve(low);
     }
     cell.order = made_++;
     cell.bound = std::max(above, bound_of(t, sine));
@@ -294,6 +303,13 @@ class CylinderBounder {
     } else {
       open_.push(cell);
     }
+  }
+
+  // What is less round a kernel need not be so round all points.
+  void improve(const Tube& t) {
+    best_ = t;
+    const Tube whole = tube_along(all_, t.direction);
+    if (whole.volume() < whole_.volume()) whole_ = whole;
   }
 
   // No cylinder is thinner, or lower, than a ball in the hull: across a needle nothing else would tell.
@@ -307,8 +323,9 @@ class CylinderBounder {
     return volume_of(std::max(inner_, radius), std::max(2 * inner_, height)) * (1 - k_rounding);
   }
 
-  std::span<const Double3> points_;
-  Tube best_;
+  std::span<const Double3> points_, all_;
+  Tube best_;   // round points_
+  Tube whole_;  // the least known round all_
   const MinimalCylinderOptions& options_;
   double inner_;
   std::array<Axes, 3> sides_;
@@ -351,20 +368,14 @@ Cylinder<double> recentred_cylinder(const PointCloud& cloud) {
 
 BoundedFit<Cylinder<double>> minimal_cylinder(const ConvexHull& hull, const MinimalCylinderOptions& options) {
   if (hull.dimension < 3) return {flat_cylinder(hull), 0};
-  Tube best = search(hull, options.deadline);
-  // What is least round a kernel need not be so round all points.
-  Tube whole = tube_along(hull.boundary, best.direction);
-  double bound = hull.volume * (1 - k_rounding);
-  if (std::isfinite(options.gap)) {
-    MinimalCylinderOptions how = options;
-    how.gap = reachable_gap(options.gap, whole.volume() / best.volume());
-    CylinderBounder bounder(hull, best, how);
-    bound = std::max(bound, bounder.run());
-    best = bounder.best();
-    const Tube proven = tube_along(hull.boundary, best.direction);
-    if (proven.volume() < whole.volume()) whole = proven;
+  const Tube best = search(hull, options.deadline);
+  if (!std::isfinite(options.gap)) {
+    const double bound = hull.volume * (1 - k_rounding);
+    return {cylinder_along(hull.boundary, best.direction), std::min(bound, best.volume())};
   }
-  return {cylinder_of(whole), std::min(bound, best.volume())};
+  CylinderBounder bounder(hull, best, options);
+  const double bound = std::max(hull.volume * (1 - k_rounding), bounder.run());
+  return {cylinder_of(bounder.whole()), std::min(bound, bounder.best().volume())};
 }
 
 }  // namespace copse
