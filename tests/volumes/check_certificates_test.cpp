@@ -56,6 +56,19 @@ Stored stored_for(const Tree& tree) {
   return s;
 }
 
+TEST(CheckCertificates, ANodeHoldsTheSetsOfTheBottomBelowIt) {
+  //                                    0: root      1: bottom   2: inner     3: bottom    4: bottom
+  const std::vector<VolumeNode> nodes{{.skip = 5, .set = 10},
+                                      {.skip = 2, .set = 11},
+                                      {.skip = 5, .set = 12},
+                                      {.skip = 4, .set = 13},
+                                      {.skip = 5, .set = 14}};
+  using Sets = std::vector<std::uint32_t>;
+  EXPECT_EQ(sets_below(nodes, 0), (Sets{11, 13, 14}));
+  EXPECT_EQ(sets_below(nodes, 2), (Sets{13, 14}));
+  EXPECT_EQ(sets_below(nodes, 3), (Sets{13}));
+}
+
 TEST(CheckCertificates, VolumesThatHoldTheirVerticesPass) {
   const Tree tree = make_tree({.leaves = 20, .groups = 5}, 1);
   const auto failures = check_certificates(tree, stored_for(tree).volumes());

@@ -1,6 +1,7 @@
 #include "tools/bvfit/verify.h"
 
 #include "lib/analysis/volumes/certify.h"
+#include "lib/analysis/volumes/check_certificates.h"
 #include "lib/analysis/volumes/volume_measures.h"
 #include "lib/formats/mapped_file.h"
 #include "lib/formats/printable.h"
@@ -51,10 +52,11 @@ Result<ReadVolumes> read_volumes(const fs::path& path) {
   return read_volumes_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
-// What the sets are to hold. Parts are gathered a kind at a time and kept.
-class Contents {
+// What sets that are told by name are to hold, of whatever input. Parts are gathered a kind at a time and
+// kept.
+class NamedContents {
  public:
-  Contents(const Input& input, const ReadVolumes& volumes) : input_(input), volumes_(volumes) {}
+  NamedContents(const Input& input, const ReadVolumes& volumes) : input_(input), volumes_(volumes) {}
 
   Result<std::vector<Double3>> of(const ReadSet& set) {
     std::vector<Double3> out;
@@ -62,10 +64,8 @@ class Contents {
       if (auto ok = add(set.name, set, out); !ok) return std::unexpected(ok.error());
       return out;
     }
-    const auto& nodes = volumes_.nodes;
-    for (std::uint32_t i = set.node; i < nodes[set.node].skip; ++i) {
-      if (nodes[i].skip != i + 1) continue;
-      if (auto ok = add(volumes_.sets[nodes[i].set].name, set, out); !ok) return std::unexpected(ok.error());
+    for (const std::uint32_t below : sets_below(volumes_.nodes, set.node)) {
+      if (auto ok = add(volumes_.sets[below].name, set, out); !ok) return std::unexpected(ok.error());
     }
     return out;
   }
@@ -190,7 +190,7 @@ Result<void> verify_volumes(const Options& options, Context& context) {
   std::string lie;  // the first
   std::size_t failed = 0, judged = 0, done = 0;
   std::uint64_t tests = 0;
-  Contents contents(*input, *volumes);
+  NamedContents contents(*input, *volumes);
   for (const ReadSet& set : volumes->sets) {
     const auto points = contents.of(set);
     if (!points) return std::unexpected(points.error());

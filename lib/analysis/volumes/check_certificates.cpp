@@ -15,20 +15,19 @@ namespace {
 // Of all vertices of all sets: some minutes. No honest file comes near it; a forged one must not take days.
 constexpr std::uint64_t k_most_tests = std::uint64_t{1} << 32;
 
-// What the sets of a file are to hold.
-class Contents {
+// What the sets of a tree's file are to hold.
+class TreeContents {
  public:
-  Contents(const Tree& tree, const TreeVolumes& volumes, const FoliageCells& cells)
-      : tree_(tree), volumes_(volumes), parts_(tree, &cells) {}
+  TreeContents(const Tree& tree, const TreeVolumes& volumes, const FoliageCells& cells)
+      : tree_(tree), volumes_(volumes), nodes_(volumes.nodes.to_vector()), parts_(tree, &cells) {}
 
   // None when the tree has no such part.
   std::optional<std::vector<Double3>> of(const VolumeSet& set) {
     std::vector<Double3> out;
     if (set.part != VolumePart::node)
       return add(set, set, out) ? std::optional(std::move(out)) : std::nullopt;
-    for (std::uint32_t i = set.index; i < volumes_.nodes[set.index].skip; ++i) {
-      if (volumes_.nodes[i].item == k_none) continue;
-      if (!add(volumes_.sets[volumes_.nodes[i].set], set, out)) return std::nullopt;
+    for (const std::uint32_t below : sets_below(nodes_, set.index)) {
+      if (!add(volumes_.sets[below], set, out)) return std::nullopt;
     }
     return out;
   }
@@ -57,6 +56,7 @@ class Contents {
 
   const Tree& tree_;
   const TreeVolumes& volumes_;
+  std::vector<VolumeNode> nodes_;
   TreeParts parts_;
   std::vector<double> reach_;  // of every vertex
   float sway_ = 0;             // by which
@@ -67,7 +67,7 @@ class Contents {
 std::vector<std::string> check_certificates(const Tree& tree, const TreeVolumes& volumes,
                                             const FoliageCells& cells) {
   std::vector<std::string> failures;
-  Contents contents(tree, volumes, cells);
+  TreeContents contents(tree, volumes, cells);
   std::uint64_t tests = 0;
   for (std::size_t s = 0; s < volumes.sets.size(); ++s) {
     const VolumeSet& set = volumes.sets[s];
@@ -89,6 +89,14 @@ std::vector<std::string> check_certificates(const Tree& tree, const TreeVolumes&
     }
   }
   return failures;
+}
+
+std::vector<std::uint32_t> sets_below(std::span<const VolumeNode> nodes, std::uint32_t node) {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = node; i < nodes[node].skip; ++i) {
+    if (nodes[i].skip == i + 1) out.push_back(nodes[i].set);
+  }
+  return out;
 }
 
 }  // namespace copse

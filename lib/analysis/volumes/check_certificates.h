@@ -6,6 +6,7 @@
 #include "lib/formats/tree.h"
 #include "lib/formats/tree_volumes.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,9 @@ namespace copse {
 // of them.
 std::vector<std::string> check_certificates(const Tree& tree, const TreeVolumes& volumes,
                                             const FoliageCells& cells = {});
+
+// The sets whose parts the set of this node is to hold: those of the nodes at the bottom below it, in order.
+// `nodes` depth first; of each only skip and set are looked at. O(nodes below).
+std::vector<std::uint32_t> sets_below(std::span<const VolumeNode> nodes, std::uint32_t node);
 
 }  // namespace copse
