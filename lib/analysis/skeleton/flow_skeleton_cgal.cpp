@@ -125,8 +125,8 @@ void fill_holes(ClosedMesh& mesh) {
   }
 }
 
-// To the edges of an even mesh of so many triangles. False for a sliver, which would take more than four
-// times as many edges: on it the flow, which splits wide angles at every step, goes on without end.
+// To the edges of an even mesh of so many triangles. False for a sliver, which would take more than twice
+// as many edges: on it the flow, which splits wide angles at every step, goes on without end.
 bool cut_long_edges(ClosedMesh& mesh, double triangles) {
   const double even = std::sqrt(PMP::area(mesh) / triangles * 4 / std::sqrt(3.0));
   double all = 0;

@@ -5,10 +5,10 @@
 // last place until certify.h says that no point is outside. So nothing of the fitter's arithmetic is trusted.
 //
 // Inflation: a few units in the last place of the volume's size (of a cylinder's radius: of its own), or of
-// the coordinates where it lies far from the origin. Two inequalities of volume.h cannot be met that closely by a set of no thickness: a cylinder
-// across a tilted plane gets the thinnest height at which its axis still has a direction (about the square
-// root of a unit), and an ellipsoid's axis of length 0 becomes one of about two units while the others grow
-// by at most 1.3.
+// the coordinates where it lies far from the origin. Two inequalities of volume.h cannot be met that closely
+// by a set of no thickness: a cylinder across a tilted plane gets the thinnest height at which its axis still
+// has a direction (about the square root of a unit), and an ellipsoid's axis of length 0 becomes one of about
+// two units while the others grow by at most 1.3.
 #pragma once
 
 #include "lib/formats/volume.h"
