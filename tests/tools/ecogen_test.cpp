@@ -391,6 +391,22 @@ TEST_F(Ecogen, ExportsObjOfSmallForests) {
     EXPECT_NE(obj.find(std::string("o ") + object), std::string::npos) << object;
 }
 
+TEST_F(Ecogen, AnExportFindsItsImagesFromItsOwnFolder) {
+  Image image;
+  image.width = image.height = 1;
+  image.rgba = {255, 0, 0, 255};
+  ASSERT_TRUE(write_image(file("soil.png"), image));
+  page_["materials"][0]["texture"] = "soil.png";
+  page_["types"][0]["count"] = 1;
+  std::filesystem::create_directories(file("else"));
+  ASSERT_EQ(
+      run({"--export", file("f.obj"), "--export", file("else/g.obj"), "--export", file("else/g.glb")}).status,
+      0);
+  EXPECT_NE(read_text(file("f.mtl")).find("map_Kd soil.png\n"), std::string::npos);
+  EXPECT_NE(read_text(file("else/g.mtl")).find("map_Kd ../soil.png\n"), std::string::npos);
+  EXPECT_NE(read_text(file("else/g.glb")).find("\"../soil.png\""), std::string::npos);
+}
+
 // The judge is the Khronos validator, where node and the npm package `gltf-validator` are.
 TEST_F(Ecogen, ExportsAGlbThatTheKhronosValidatorAccepts) {
   ASSERT_EQ(run({"--export", file("f.glb")}).status, 0);

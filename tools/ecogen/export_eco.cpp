@@ -47,6 +47,17 @@ Result<Mesh> mesh_of(const TreeType& type, const fs::path& trees) {
   return mesh;
 }
 
+// Names of images, relative to `from` before, are relative to `to` after.
+void relocate(std::vector<Texture>& textures, const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  for (Texture& t : textures) {
+    if (t.uri.empty()) continue;
+    const fs::path image = fs::absolute(from / t.uri, error).lexically_normal();
+    const fs::path near = image.lexically_relative(fs::absolute(to / ".", error).lexically_normal());
+    t.uri = (error || near.empty() ? image : near).generic_string();
+  }
+}
+
 // Puts meshes one after the other into one.
 class Merger {
  public:
@@ -96,7 +107,11 @@ class Merger {
   }
 
   std::size_t triangles() const { return mesh_.triangles.size(); }
-  Mesh take() { return std::move(mesh_); }
+  // For a file in `folder`; the images were relative to `trees`.
+  Mesh take(const fs::path& trees, const fs::path& folder) {
+    relocate(mesh_.textures, trees, folder);
+    return std::move(mesh_);
+  }
 
  private:
   Mesh mesh_;
@@ -165,8 +180,9 @@ void add_terrain(const Ecosystem& eco, Merger& merger) {
     merger.add(terrain_mesh(eco), "terrain", k_same, k_same, [](const Part& p) { return p.material; });
 }
 
-Result<std::vector<ExportedFile>> glb_of(const Ecosystem& eco, const fs::path& trees, const std::string& name,
+Result<std::vector<ExportedFile>> glb_of(const Ecosystem& eco, const fs::path& trees, const fs::path& file,
                                          Instancing form) {
+  const std::string name = file.filename().string();
   Merger merger(eco);
   const auto all = read_meshes(eco, trees, merger);
   if (!all) return std::unexpected(all.error());
@@ -185,7 +201,7 @@ Result<std::vector<ExportedFile>> glb_of(const Ecosystem& eco, const fs::path& t
     merger.add(all->meshes[type], n.node, k_same, k_same, material_under(all->first[type], trunk, leaf));
     nodes.push_back(std::move(n));
   }
-  auto files = export_mesh(merger.take(), ExportFormat::glb, name);
+  auto files = export_mesh(merger.take(trees, file.parent_path()), ExportFormat::glb, name);
   if (!files) return files;
   auto bytes = with_instances(files->front().bytes, nodes, eco.origin, form);
   if (!bytes) return refuse(name, bytes.error().what, bytes.error().remedy);
@@ -193,12 +209,14 @@ Result<std::vector<ExportedFile>> glb_of(const Ecosystem& eco, const fs::path& t
   return files;
 }
 
-Result<std::vector<ExportedFile>> obj_of(const Ecosystem& eco, const fs::path& trees,
-                                         const std::string& name) {
+Result<std::vector<ExportedFile>> obj_of(const Ecosystem& eco, const fs::path& trees, const fs::path& file) {
+  const std::string name = file.filename().string();
   Merger merger(eco);
   const auto all = read_meshes(eco, trees, merger);
   if (!all) return std::unexpected(all.error());
-  std::uint64_t triangles = 0;
+  const Terrain& ground = eco.terrain;
+  std::uint64_t triangles =
+      ground.columns > 0 ? 2 * (std::uint64_t{ground.columns} - 1) * (ground.rows - 1) : 0;
   for (std::size_t t = 0; t < eco.types.size(); ++t)
     triangles += all->meshes[t].triangles.size() * std::uint64_t{eco.types[t].instances};
   if (triangles > k_most_obj_triangles)
@@ -220,7 +238,7 @@ Result<std::vector<ExportedFile>> obj_of(const Ecosystem& eco, const fs::path& t
           [&](const Float3& n) { return to_float(rotate(i.rotation, to_double(n))); },
           material_under(all->first[type], trunk, leaf));
   }
-  return export_mesh(merger.take(), ExportFormat::obj, name);
+  return export_mesh(merger.take(trees, file.parent_path()), ExportFormat::obj, name);
 }
 
 Result<void> write_all(const std::vector<ExportedFile>& files, const fs::path& folder, Context& context) {
@@ -242,14 +260,14 @@ Result<void> export_ecosystem(const Ecosystem& eco, const fs::path& trees, const
                               Instancing form, Context& context) {
   Stage stage = context.stage(fmt::format("export {}", file.extension().string()));
   stage.items(eco.instance_count(), "instances");
-  const std::string e = file.extension().string(), name = file.filename().string();
+  const std::string e = file.extension().string();
   if (e == ".csv") return context.write(file, instances_csv(eco));
   if (e == ".png") {
     const auto png = encode_png(map_with_legend(eco));
     if (!png) return std::unexpected(png.error());
     return context.write(file, {reinterpret_cast<const char*>(png->data()), png->size()});
   }
-  const auto files = e == ".glb" ? glb_of(eco, trees, name, form) : obj_of(eco, trees, name);
+  const auto files = e == ".glb" ? glb_of(eco, trees, file, form) : obj_of(eco, trees, file);
   if (!files) return std::unexpected(files.error());
   return write_all(*files, file.parent_path(), context);
 }
