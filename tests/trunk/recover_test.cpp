@@ -207,17 +207,6 @@ TEST(Recover, SharesTheRadiusWhereTubesAreLaidEndToEnd) {
   EXPECT_EQ(h.first_vertex.back(), 5 * 12 + 4 * 6 + 3 * 6u);
 }
 
-TEST(Recover, JoinsThinTubesThatAreApartByASmallShareOfTheWhole) {
-  TubeMaker maker;
-  maker.add(tube({0, 0, 0}, {0, 10, 0}, 5, 0.3, 0.2, 8));
-  maker.add(tube({0, 5, 0}, {1, 5, 0}, 4, 0.002, 0.0019, 6));
-  TubeShape next =
-      tube({1, 5.00001, 0}, {2, 5, 0}, 4, 0.0019, 0.0018, 6);  // by half a per cent of its radius
-  next.turn = 0.5;
-  maker.add(next);
-  EXPECT_EQ(recover(maker.mesh).radii.size(), 5u + 4u + 3u);
-}
-
 TEST(Recover, LidsBelongToTheSegmentThatTheyClose) {
   TubeMaker maker;
   TubeShape shape = tube({0, 0, 0}, {0, 4, 0}, 3, 0.4, 0.3);

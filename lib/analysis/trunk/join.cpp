@@ -38,18 +38,10 @@ SegmentTree make_tree(const Limbs& limbs, std::span<const std::array<std::uint32
   return SegmentTree(std::move(segments));
 }
 
-// How far apart rings of a radius may be that are one, where the rings of all limbs take up `size`: what was
-// computed twice, or rounded, is apart by a share of the whole, however thin the twig, but never by much of
-// an edge.
-double reach_of(double radius, double size) {
-  return std::max(k_join_tolerance * radius, std::min(k_weld_of_edge * radius, k_weld_of_diagonal * size));
-}
-
-bool coincide(const Limbs& limbs, double size, std::uint32_t a, std::uint32_t b) {
-  const double diameter = std::max(limbs.diameter[a], limbs.diameter[b]),
-               reach = reach_of(diameter / 2, size);
-  return diameter > 0 && distance(limbs.centre[a], limbs.centre[b]) <= reach &&
-         std::abs(limbs.diameter[a] - limbs.diameter[b]) <= 2 * reach;
+bool coincide(const Limbs& limbs, std::uint32_t a, std::uint32_t b) {
+  const double diameter = std::max(limbs.diameter[a], limbs.diameter[b]);
+  return diameter > 0 && distance(limbs.centre[a], limbs.centre[b]) <= k_join_tolerance * diameter / 2 &&
+         std::abs(limbs.diameter[a] - limbs.diameter[b]) <= k_join_tolerance * diameter;
 }
 
 // Whether two rings lie in one plane, as far as their planes are known.
@@ -114,9 +106,6 @@ LimbSegments::LimbSegments(const Limbs& limbs) : rings(segment_rings(limbs)), tr
 
 void join(Limbs& limbs, LimbSegments& segments) {
   Joints joints(limbs);
-  DoubleBox box;
-  for (const Double3& c : limbs.centre) box.grow(c);
-  const double size = length(box.extent());
   std::vector<Nearness> found;
   const std::vector<std::uint32_t> ends = end_rings(limbs);
   const std::vector<std::uint8_t> is_start = clear_starts(limbs, ends);
@@ -125,7 +114,7 @@ void join(Limbs& limbs, LimbSegments& segments) {
   for (const std::uint32_t end : ends) {
     const double radius = limbs.diameter[end] / 2;
     if (radius <= 0) continue;
-    segments.tree.near(limbs.centre[end], reach_of(radius, size), radius, limbs.limb[end], k_candidates,
+    segments.tree.near(limbs.centre[end], k_join_tolerance * radius, radius, limbs.limb[end], k_candidates,
                        found);
     for (const Nearness& near : found) {
       for (const std::uint32_t ring : segments.rings[near.segment]) {
@@ -133,7 +122,7 @@ void join(Limbs& limbs, LimbSegments& segments) {
         if (!is_end[ring] && !lie_alike(limbs, end, ring)) continue;
         // Two limbs that begin in one place are siblings, and grow side by side from something else.
         if (is_start[end] && is_start[ring]) continue;
-        if (coincide(limbs, size, end, ring)) joints.merge(end, ring);
+        if (coincide(limbs, end, ring)) joints.merge(end, ring);
       }
     }
   }
