@@ -1,5 +1,5 @@
 // probe_ecosystem FILE.eco: what opening it and culling it cost. Called by bench/ecosystem.py.
-#include "lib/formats/ecosystem_file.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
 #include "lib/runtime/block_culling.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // Time to extract a level's index lists from the spectra of a tree. bench/extraction.py calls it.
 //
 //   probe_extraction NAME TREE     a file that lodbake --continuous has made
-#include "lib/formats/spectrum_file.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/levels/spectrum_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "lib/runtime/levels.h"
 
 #include <algorithm>

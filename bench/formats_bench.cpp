@@ -1,6 +1,6 @@
 // Opening, loading and encoding an .stree of about 200 MB. Each figure is named by what it includes.
-#include "lib/formats/atomic_file.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/container/atomic_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/tree_maker.h"
 
 #include <cstdio>

@@ -9,7 +9,7 @@
 #include "lib/analysis/lod/lines_points.h"
 #include "lib/analysis/measure/lod_quality.h"
 #include "lib/formats/import/image.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 
 #include <cstdlib>
 #include <ctime>

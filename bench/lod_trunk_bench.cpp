@@ -8,7 +8,7 @@
 #include "lib/analysis/measure/drawn_mesh.h"
 #include "lib/analysis/measure/raster.h"
 #include "lib/analysis/measure/surface_distance.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 
 #include <algorithm>
 #include <ctime>

@@ -1,7 +1,7 @@
 // What other libraries fit round the same points.
 #pragma once
 
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 #include <memory>
 #include <span>

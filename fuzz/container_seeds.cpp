@@ -1,9 +1,9 @@
 // Writes the seeds of fuzz_container: small sound trees of every kind, so that the fuzzer starts behind the
 // header.
 //   fuzz_container_seeds fuzz/corpus/container
-#include "lib/formats/atomic_file.h"
-#include "lib/formats/tree_file.h"
-#include "lib/formats/tree_pack.h"
+#include "lib/formats/container/atomic_file.h"
+#include "lib/formats/tree_file/tree_file.h"
+#include "lib/formats/tree_file/tree_pack.h"
 #include "tests/formats/tree_maker.h"
 
 #include <cstdio>

@@ -1,7 +1,7 @@
 // Writes the seeds of fuzz_ecosystem: little sound ecosystems of every kind.
 //   fuzz_ecosystem_seeds fuzz/corpus/ecosystem
-#include "lib/formats/atomic_file.h"
-#include "lib/formats/ecosystem_file.h"
+#include "lib/formats/container/atomic_file.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
 #include "tests/formats/ecosystem_maker.h"
 
 #include <cstdio>

@@ -7,7 +7,7 @@
 // The stack is on the stack; `visible` grows to its largest size once.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/runtime/camera.h"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 #include "lib/runtime/block_stream.h"
 
-#include "lib/formats/check_ecosystem.h"
-#include "lib/formats/instance_bounds.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/check_ecosystem.h"
+#include "lib/formats/ecosystem/instance_bounds.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 
 #include <algorithm>
 #include <cmath>

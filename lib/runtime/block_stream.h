@@ -6,7 +6,7 @@
 // and kept, up to a budget.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/runtime/matrix.h"
 
 #include <array>

@@ -6,7 +6,7 @@
 // in area so that the crown keeps its area. No call allocates.
 #pragma once
 
-#include "lib/formats/foliage_cells.h"
+#include "lib/formats/levels/foliage_cells.h"
 
 #include <array>
 #include <cstdint>

@@ -4,7 +4,7 @@
 // allocates.
 #pragma once
 
-#include "lib/formats/spectrum.h"
+#include "lib/formats/levels/spectrum.h"
 
 #include <cstdint>
 #include <span>

@@ -3,7 +3,7 @@
 // All by the order of the file's arrays: nothing is sorted, no call allocates.
 #pragma once
 
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <array>
 #include <cstdint>

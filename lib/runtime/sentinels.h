@@ -9,7 +9,7 @@
 // Source: digest 002, section 3.6 (preferred position and sentinel, with the addition).
 #pragma once
 
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 
 #include <cstdint>
 #include <span>

@@ -3,7 +3,7 @@
 // face the camera).
 #pragma once
 
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <vector>

@@ -7,7 +7,7 @@
 // are neither cracks nor T-junctions.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/runtime/camera.h"
 
 #include <array>

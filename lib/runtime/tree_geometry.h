@@ -8,7 +8,7 @@
 #pragma once
 
 #include "lib/formats/mesh.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <span>

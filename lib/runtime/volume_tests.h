@@ -1,15 +1,15 @@
 // The tests of a bounding volume that a real-time program makes: point, plane, frustum, ray, box and ball.
 //
 // All in float, without allocation, and on the safe side: what is told to be outside is outside. The
-// inequalities are those of lib/formats/volume.h with room for the roundings of float, so a point that is
-// certified to be inside is never told to be outside, and one that is farther out than k_volume_margin of
-// (its distance + the volume's size) is never told to be inside. Squares must neither overflow nor underflow:
-// sizes and distances from 1e-15 to 1e15 m (beyond, answers stay on the safe side).
+// inequalities are those of lib/formats/volumes/volume.h with room for the roundings of float, so a point
+// that is certified to be inside is never told to be outside, and one that is farther out than
+// k_volume_margin of (its distance + the volume's size) is never told to be inside. Squares must neither
+// overflow nor underflow: sizes and distances from 1e-15 to 1e15 m (beyond, answers stay on the safe side).
 //
 // Source: digest 002, section 5 (5.1: the uniform form; the errata of the printed tests are binding).
 #pragma once
 
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 #include "lib/runtime/camera.h"
 
 #include <cstdint>

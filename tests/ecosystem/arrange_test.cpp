@@ -1,8 +1,8 @@
 #include "lib/analysis/ecosystem/arrange.h"
 
 #include "lib/analysis/ecosystem/tilt.h"
-#include "lib/formats/ecosystem_file.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "lib/formats/random.h"
 #include "tests/ecosystem/grounds.h"
 

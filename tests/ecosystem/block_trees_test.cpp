@@ -1,6 +1,6 @@
 #include "lib/analysis/ecosystem/block_trees.h"
 
-#include "lib/formats/ecosystem_file.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
 #include "lib/formats/random.h"
 #include "tests/formats/ecosystem_maker.h"
 

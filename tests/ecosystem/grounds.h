@@ -1,7 +1,7 @@
 // Small terrains for tests.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 
 #include <functional>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "lib/analysis/ecosystem/terrain_grid.h"
 #include "lib/analysis/ecosystem/tilt.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "tests/ecosystem/grounds.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "lib/formats/atomic_file.h"
+#include "lib/formats/container/atomic_file.h"
 
 #include "lib/formats/hash.h"
 

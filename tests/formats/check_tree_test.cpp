@@ -1,7 +1,7 @@
 // Each invariant is broken in a sound tree, and check_tree must name the section that was broken.
-#include "lib/formats/check_tree.h"
+#include "lib/formats/tree/check_tree.h"
 
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/tree_maker.h"
 
 #include <functional>

@@ -1,4 +1,4 @@
-#include "lib/formats/container.h"
+#include "lib/formats/container/container.h"
 
 #include "tests/formats/tampering.h"
 

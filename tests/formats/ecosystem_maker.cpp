@@ -1,6 +1,6 @@
 #include "tests/formats/ecosystem_maker.h"
 
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "lib/formats/random.h"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // depth 1.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 
 namespace copse {
 

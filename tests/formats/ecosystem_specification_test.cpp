@@ -1,7 +1,7 @@
 // Writes an .eco byte by byte as docs/formats.md gives it: the reader must take it, and the encoder must give
 // the same bytes for the same ecosystem.
-#include "lib/formats/ecosystem_file.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "tests/formats/by_hand.h"
 
 #include <cmath>

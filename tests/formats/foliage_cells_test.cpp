@@ -1,4 +1,4 @@
-#include "lib/formats/foliage_cells.h"
+#include "lib/formats/levels/foliage_cells.h"
 
 #include "tests/formats/tree_maker.h"
 

@@ -1,7 +1,7 @@
 #include "lib/formats/hash.h"
 
-#include "lib/formats/atomic_file.h"
-#include "lib/formats/mapped_file.h"
+#include "lib/formats/container/atomic_file.h"
+#include "lib/formats/container/mapped_file.h"
 
 #include <csignal>
 #include <thread>

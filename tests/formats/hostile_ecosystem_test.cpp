@@ -1,6 +1,6 @@
 // Ecosystem files that lie: with every checksum put right, nothing that loads may be unsound.
-#include "lib/formats/ecosystem_file.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "lib/formats/random.h"
 #include "tests/formats/ecosystem_maker.h"
 #include "tests/formats/tampering.h"

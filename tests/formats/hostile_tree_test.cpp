@@ -1,6 +1,7 @@
 // Whatever the bytes are: a refusal that names a place, or a tree in which check_tree finds nothing.
 #include "lib/formats/random.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree/check_tree.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/tampering.h"
 #include "tests/formats/tree_maker.h"
 

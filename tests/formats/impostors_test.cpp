@@ -1,4 +1,4 @@
-#include "lib/formats/impostors.h"
+#include "lib/formats/levels/impostors.h"
 
 #include "tests/formats/tampering.h"
 #include "tests/formats/tree_maker.h"

@@ -1,6 +1,6 @@
-#include "lib/formats/instance_bounds.h"
+#include "lib/formats/ecosystem/instance_bounds.h"
 
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "lib/formats/random.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 
 #include "lib/formats/random.h"
 

@@ -1,6 +1,7 @@
-#include "lib/formats/omit.h"
+#include "lib/formats/tree_file/omit.h"
 
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree/check_tree.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/tree_maker.h"
 
 #include <algorithm>

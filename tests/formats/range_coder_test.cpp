@@ -1,4 +1,4 @@
-#include "lib/formats/range_coder.h"
+#include "lib/formats/packing/range_coder.h"
 
 #include "lib/formats/random.h"
 

@@ -1,10 +1,10 @@
 // Everything that reads an .eco, over any bytes: for the fuzzer, its corpus and mutants of it.
 #pragma once
 
-#include "lib/formats/check_ecosystem.h"
-#include "lib/formats/ecosystem_file.h"
-#include "lib/formats/instance_bounds.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/check_ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
+#include "lib/formats/ecosystem/instance_bounds.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "tests/formats/tampering.h"
 
 #include <string>

@@ -1,11 +1,12 @@
 // Everything that reads a .tree or .stree, over any bytes: for the fuzzer and the replay of its corpus.
 #pragma once
 
-#include "lib/formats/foliage_cells.h"
-#include "lib/formats/impostors.h"
-#include "lib/formats/spectrum_file.h"
-#include "lib/formats/tree_file.h"
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/levels/foliage_cells.h"
+#include "lib/formats/levels/impostors.h"
+#include "lib/formats/levels/spectrum_file.h"
+#include "lib/formats/tree/check_tree.h"
+#include "lib/formats/tree_file/tree_file.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 #include "tests/formats/tampering.h"
 
 #include <string>

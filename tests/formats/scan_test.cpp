@@ -1,5 +1,5 @@
 // Every position of arrays of every length around a block: no tail may be overlooked.
-#include "lib/formats/scan.h"
+#include "lib/formats/tree/scan.h"
 
 #include <limits>
 

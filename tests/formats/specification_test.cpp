@@ -1,6 +1,6 @@
 // Writes files byte by byte as docs/formats.md gives them, sharing no code with the encoder: a reader must
 // take them, and the encoder must give the same bytes for the same tree.
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/by_hand.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "lib/formats/spectrum_file.h"
+#include "lib/formats/levels/spectrum_file.h"
 
 #include "lib/formats/random.h"
 

@@ -1,4 +1,4 @@
-#include "lib/formats/sphere_contains.h"
+#include "lib/formats/volumes/sphere_contains.h"
 
 #include "lib/formats/random.h"
 

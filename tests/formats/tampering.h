@@ -1,7 +1,7 @@
 // Damages files the way an adversary would: with every checksum put right again.
 #pragma once
 
-#include "lib/formats/container_layout.h"
+#include "lib/formats/container/container_layout.h"
 #include "lib/formats/hash.h"
 #include "lib/formats/little_endian.h"
 

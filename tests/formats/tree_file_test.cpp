@@ -1,6 +1,7 @@
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 
-#include "lib/formats/atomic_file.h"
+#include "lib/formats/container/atomic_file.h"
+#include "lib/formats/tree/check_tree.h"
 #include "tests/formats/tampering.h"
 #include "tests/formats/tree_maker.h"
 

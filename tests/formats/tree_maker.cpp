@@ -1,9 +1,9 @@
 #include "tests/formats/tree_maker.h"
 
 #include "lib/formats/random.h"
-#include "lib/formats/sphere_contains.h"
-#include "lib/formats/tree_header.h"
-#include "lib/formats/tree_sections.h"
+#include "lib/formats/tree/tree_header.h"
+#include "lib/formats/tree/tree_sections.h"
+#include "lib/formats/volumes/sphere_contains.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,7 +1,7 @@
 // Valid trees of any shape for tests and benchmarks: random numbers in every array, every invariant kept.
 #pragma once
 
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 

@@ -1,8 +1,8 @@
-#include "lib/formats/tree_pack.h"
+#include "lib/formats/tree_file/tree_pack.h"
 
-#include "lib/formats/check_tree.h"
 #include "lib/formats/random.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree/check_tree.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/read_everything.h"
 #include "tests/formats/tree_maker.h"
 

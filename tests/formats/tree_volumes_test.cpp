@@ -1,6 +1,6 @@
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/tampering.h"
 #include "tests/formats/tree_maker.h"
 

@@ -1,4 +1,4 @@
-#include "lib/formats/type_hash.h"
+#include "lib/formats/ecosystem/type_hash.h"
 
 #include "lib/formats/hash.h"
 

@@ -1,4 +1,4 @@
-#include "lib/formats/type_volumes.h"
+#include "lib/formats/ecosystem/type_volumes.h"
 
 #include "lib/formats/little_endian.h"
 

@@ -1,4 +1,4 @@
-#include "lib/formats/volume_numbers.h"
+#include "lib/formats/volumes/volume_numbers.h"
 
 #include <limits>
 

@@ -2,7 +2,7 @@
 
 #include "lib/analysis/volumes/minimal_sphere.h"
 #include "lib/formats/random.h"
-#include "lib/formats/sphere_contains.h"
+#include "lib/formats/volumes/sphere_contains.h"
 
 #include <cmath>
 #include <set>

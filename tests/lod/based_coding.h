@@ -1,8 +1,8 @@
 // What spectra that are coded against their tree must keep, for the tests of both codings.
 #pragma once
 
+#include "lib/formats/levels/spectrum_file.h"
 #include "lib/formats/random.h"
-#include "lib/formats/spectrum_file.h"
 
 #include <algorithm>
 #include <array>

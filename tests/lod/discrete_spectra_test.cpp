@@ -3,7 +3,7 @@
 #include "lib/analysis/lod/leaf_collapse.h"
 #include "lib/analysis/lod/trunk_radii.h"
 #include "lib/analysis/measure/drawn_mesh.h"
-#include "lib/formats/spectrum_file.h"
+#include "lib/formats/levels/spectrum_file.h"
 #include "tests/lod/leafy_tree.h"
 #include "tests/lod/tube_tree.h"
 

@@ -1,7 +1,7 @@
 // Meshes for the tests of edge collapses.
 #pragma once
 
-#include "lib/formats/part_triangles.h"
+#include "lib/formats/levels/part_triangles.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "lib/analysis/lod/edge_spectrum.h"
 
-#include "lib/formats/level_mesh.h"
+#include "lib/formats/levels/level_mesh.h"
 #include "tests/lod/edge_shapes.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/formats/random.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "lib/formats/part_triangles.h"
+#include "lib/formats/levels/part_triangles.h"
 
 #include "tests/lod/tube_tree.h"
 

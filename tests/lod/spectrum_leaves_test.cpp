@@ -1,4 +1,4 @@
-#include "lib/formats/spectrum_leaves.h"
+#include "lib/formats/levels/spectrum_leaves.h"
 
 #include "lib/analysis/lod/leaf_collapse.h"
 #include "tests/lod/based_coding.h"

@@ -1,4 +1,4 @@
-#include "lib/formats/spectrum_trunk.h"
+#include "lib/formats/levels/spectrum_trunk.h"
 
 #include "lib/analysis/lod/trunk_radii.h"
 #include "tests/lod/based_coding.h"

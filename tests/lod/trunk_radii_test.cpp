@@ -2,8 +2,8 @@
 
 #include "lib/analysis/lod/limb_chains.h"
 #include "lib/analysis/measure/raster.h"
-#include "lib/formats/level_mesh.h"
-#include "lib/formats/part_triangles.h"
+#include "lib/formats/levels/level_mesh.h"
+#include "lib/formats/levels/part_triangles.h"
 #include "tests/lod/tube_tree.h"
 
 #include <filesystem>

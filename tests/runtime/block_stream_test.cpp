@@ -1,6 +1,6 @@
 #include "lib/runtime/block_stream.h"
 
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "tests/formats/ecosystem_maker.h"
 
 #include <cstring>

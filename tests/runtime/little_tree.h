@@ -1,7 +1,7 @@
 // Small trees whose every array is known: a forked stem of square rings with two leaves.
 #pragma once
 
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 // What tests of ecogen begin with.
 #pragma once
 
-#include "lib/formats/ecosystem_file.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
 #include "tests/formats/tree_maker.h"
 #include "tests/tools/little_obj.h"
 #include "tests/tools/process.h"

@@ -1,8 +1,8 @@
 // What ecogen packs into a file, and what it makes boxes of.
 #include "lib/formats/import/image.h"
-#include "lib/formats/spectrum_file.h"
-#include "lib/formats/tree_file.h"
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/levels/spectrum_file.h"
+#include "lib/formats/tree_file/tree_file.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 #include "tests/tools/ecogen_folder.h"
 #include "tests/tools/rich_tree.h"
 

@@ -1,8 +1,8 @@
 // ecogen as a user calls it.
-#include "lib/formats/ecosystem_file.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "lib/formats/import/image.h"
-#include "lib/formats/instance_codec.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/tree_maker.h"
 #include "tests/tools/ecogen_folder.h"
 

@@ -1,6 +1,6 @@
-#include "lib/formats/atomic_file.h"
+#include "lib/formats/container/atomic_file.h"
 #include "lib/formats/import/import.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/tampering.h"
 #include "tests/formats/tree_maker.h"
 #include "tests/tools/process.h"

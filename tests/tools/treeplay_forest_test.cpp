@@ -1,5 +1,5 @@
 // treeplay on ecosystems.
-#include "lib/formats/ecosystem_file.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
 #include "lib/formats/import/image.h"
 #include "tests/tools/process.h"
 #include "tests/tools/rich_tree.h"

@@ -1,6 +1,7 @@
 // treeplay as a user calls it: pictures whose every pixel is known, errors, windows.
 #include "lib/formats/import/image.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree/check_tree.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/tools/process.h"
 
 #include <algorithm>

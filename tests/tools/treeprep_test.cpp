@@ -1,5 +1,5 @@
 // treeprep as a user calls it: real processes on real files.
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/tools/little_obj.h"
 #include "tests/tools/process.h"
 

@@ -1,6 +1,7 @@
 #include "lib/analysis/tree/assemble.h"
 
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree/check_tree.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tests/tree/tube_fixture.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
-// How far points leave a volume, straight from the inequalities of lib/formats/volume.h.
+// How far points leave a volume, straight from the inequalities of lib/formats/volumes/volume.h.
 #pragma once
 
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 #include "tests/volumes/point_sets.h"
 
 #include <span>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/analysis/bvh/box_tree.h"
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 #include "tools/bvfit/fits.h"
 
 #include <array>

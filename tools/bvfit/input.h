@@ -1,12 +1,12 @@
 // What is to be enclosed: a mesh, a tree or points, and its parts.
 #pragma once
 
-#include "lib/formats/foliage_cells.h"
 #include "lib/formats/import/import.h"
+#include "lib/formats/levels/foliage_cells.h"
 #include "lib/formats/mesh.h"
 #include "lib/formats/result.h"
-#include "lib/formats/tree_file.h"
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/tree_file/tree_file.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 #include "tools/common/tool.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 // Fitted volumes as sections of a tree's file.
 #pragma once
 
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 #include "tools/bvfit/fits.h"
 
 #include <span>

@@ -3,7 +3,7 @@
 #include "lib/analysis/volumes/certify.h"
 #include "lib/analysis/volumes/check_certificates.h"
 #include "lib/analysis/volumes/volume_measures.h"
-#include "lib/formats/mapped_file.h"
+#include "lib/formats/container/mapped_file.h"
 #include "lib/formats/printable.h"
 #include "tools/bvfit/volumes_json.h"
 

@@ -1,7 +1,7 @@
 // The outputs of one run: files become visible together, and only when the run has succeeded.
 #pragma once
 
-#include "lib/formats/atomic_file.h"
+#include "lib/formats/container/atomic_file.h"
 #include "lib/formats/report.h"
 #include "lib/formats/result.h"
 

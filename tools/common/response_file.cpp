@@ -1,6 +1,6 @@
 #include "tools/common/response_file.h"
 
-#include "lib/formats/mapped_file.h"
+#include "lib/formats/container/mapped_file.h"
 
 #include <utility>
 

@@ -6,7 +6,7 @@
 #include "lib/analysis/ecosystem/populate.h"
 #include "lib/analysis/ecosystem/spread.h"
 #include "lib/analysis/ecosystem/tilt.h"
-#include "lib/formats/check_ecosystem.h"
+#include "lib/formats/ecosystem/check_ecosystem.h"
 #include "tools/ecogen/frames.h"
 #include "tools/ecogen/inputs.h"
 #include "tools/ecogen/leave_out.h"

@@ -1,7 +1,7 @@
 // From a scene to an ecosystem: terrain, trees, instances, blocks.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/result.h"
 #include "lib/runtime/camera_path.h"
 #include "tools/common/tool.h"

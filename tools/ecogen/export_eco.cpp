@@ -1,10 +1,10 @@
 #include "tools/ecogen/export_eco.h"
 
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "lib/formats/export/export.h"
 #include "lib/formats/export/instancing.h"
 #include "lib/formats/import/image.h"
-#include "lib/formats/instance_codec.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tools/ecogen/instance_table.h"
 #include "tools/ecogen/map_legend.h"
 

@@ -1,7 +1,7 @@
 // An ecosystem for other programs: GLB with EXT_mesh_gpu_instancing, a map from above as PNG, OBJ, CSV.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/export/instancing.h"
 #include "lib/formats/result.h"
 #include "tools/common/tool.h"

@@ -1,7 +1,7 @@
 #include "tools/ecogen/frames.h"
 
 #include "lib/analysis/ecosystem/degrees.h"
-#include "lib/formats/instance_bounds.h"
+#include "lib/formats/ecosystem/instance_bounds.h"
 #include "lib/runtime/block_culling.h"
 #include "lib/runtime/block_stream.h"
 

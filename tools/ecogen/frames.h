@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/analysis/ecosystem/value_map.h"
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/runtime/camera_path.h"
 
 #include <cstdint>

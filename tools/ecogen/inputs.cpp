@@ -1,10 +1,10 @@
 #include "tools/ecogen/inputs.h"
 
+#include "lib/formats/container/mapped_file.h"
 #include "lib/formats/hash.h"
 #include "lib/formats/import/image.h"
-#include "lib/formats/mapped_file.h"
-#include "lib/formats/tree_file.h"
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/tree_file/tree_file.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/analysis/ecosystem/populate.h"
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "tools/common/tool.h"
 #include "tools/ecogen/scene.h"
 

@@ -1,7 +1,7 @@
 #include "tools/ecogen/instance_table.h"
 
 #include "lib/analysis/ecosystem/tilt.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "tools/common/command_line.h"
 
 #include <algorithm>

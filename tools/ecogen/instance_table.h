@@ -2,7 +2,7 @@
 // type,x,y,z,head,pitch,roll,scale,trunk_material,leaf_material,motion,red,green,blue.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/result.h"
 #include "tools/ecogen/scene.h"
 

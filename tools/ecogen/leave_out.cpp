@@ -1,6 +1,6 @@
 #include "tools/ecogen/leave_out.h"
 
-#include "lib/formats/ecosystem_header.h"
+#include "lib/formats/ecosystem/ecosystem_header.h"
 #include "lib/formats/materials.h"
 #include "lib/runtime/block_stream.h"
 #include "tools/ecogen/pack_tree.h"

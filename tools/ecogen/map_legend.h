@@ -1,7 +1,7 @@
 // What stands beside a map: which colour is which type, how many there are, and how long a metre is.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/import/image.h"
 #include "lib/formats/report.h"
 #include "lib/formats/result.h"

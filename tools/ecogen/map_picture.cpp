@@ -1,7 +1,7 @@
 #include "tools/ecogen/map_picture.h"
 
 #include "lib/analysis/ecosystem/ground.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // A forest from above, for people: the terrain as a shaded relief, every tree as a disc of its crown.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/import/image.h"
 
 namespace copse::ecogen {

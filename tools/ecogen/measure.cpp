@@ -1,7 +1,7 @@
 #include "tools/ecogen/measure.h"
 
 #include "lib/analysis/ecosystem/tilt.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 
 #include <algorithm>
 #include <cmath>

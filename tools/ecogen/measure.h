@@ -3,7 +3,7 @@
 
 #include "lib/analysis/ecosystem/ground.h"
 #include "lib/analysis/ecosystem/populate.h"
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "tools/common/tool.h"
 
 #include <cstdint>

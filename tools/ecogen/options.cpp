@@ -1,6 +1,6 @@
 #include "tools/ecogen/options.h"
 
-#include "lib/formats/ecosystem_file.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
 #include "tools/common/option_values.h"
 
 #include <CLI/CLI.hpp>

@@ -1,12 +1,12 @@
 #include "tools/ecogen/pack_tree.h"
 
-#include "lib/formats/foliage_cells.h"
-#include "lib/formats/impostors.h"
-#include "lib/formats/mapped_file.h"
-#include "lib/formats/spectrum_file.h"
-#include "lib/formats/tree_file.h"
-#include "lib/formats/tree_sections.h"
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/container/mapped_file.h"
+#include "lib/formats/levels/foliage_cells.h"
+#include "lib/formats/levels/impostors.h"
+#include "lib/formats/levels/spectrum_file.h"
+#include "lib/formats/tree/tree_sections.h"
+#include "lib/formats/tree_file/tree_file.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 
 #include <algorithm>
 #include <array>

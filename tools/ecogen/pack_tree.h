@@ -1,7 +1,7 @@
 // A tree's file as it goes into an ecosystem: without what no frame of the scene can show.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/result.h"
 #include "tools/common/tool.h"
 #include "tools/ecogen/build.h"

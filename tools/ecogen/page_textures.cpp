@@ -1,8 +1,8 @@
 #include "tools/ecogen/page_textures.h"
 
 #include "lib/analysis/measure/texture_statistics.h"
+#include "lib/formats/container/mapped_file.h"
 #include "lib/formats/import/image.h"
-#include "lib/formats/mapped_file.h"
 
 #include <system_error>
 

@@ -1,8 +1,8 @@
 #include "tools/ecogen/run.h"
 
-#include "lib/formats/ecosystem_file.h"
+#include "lib/formats/container/mapped_file.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
 #include "lib/formats/hash.h"
-#include "lib/formats/mapped_file.h"
 #include "tools/ecogen/build.h"
 #include "tools/ecogen/document.h"
 #include "tools/ecogen/export_eco.h"

@@ -3,7 +3,7 @@
 
 #include "lib/analysis/ecosystem/density_field.h"
 #include "lib/analysis/ecosystem/terrain_grid.h"
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/result.h"
 #include "tools/ecogen/document.h"
 

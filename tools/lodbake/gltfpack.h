@@ -4,7 +4,7 @@
 
 #include "lib/analysis/measure/drawn_mesh.h"
 #include "lib/formats/result.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <filesystem>
 #include <memory>

@@ -1,8 +1,8 @@
 // --impostor: the tree as pictures, behind the last level.
 #pragma once
 
-#include "lib/formats/impostors.h"
-#include "lib/formats/spectrum.h"
+#include "lib/formats/levels/impostors.h"
+#include "lib/formats/levels/spectrum.h"
 #include "tools/common/tool.h"
 #include "tools/lodbake/looks.h"
 #include "tools/lodbake/options.h"

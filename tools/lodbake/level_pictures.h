@@ -4,9 +4,9 @@
 #include "lib/analysis/lod/coupling.h"
 #include "lib/analysis/measure/drawn_mesh.h"
 #include "lib/analysis/measure/picture.h"
+#include "lib/formats/levels/spectrum.h"
 #include "lib/formats/report.h"
 #include "lib/formats/result.h"
-#include "lib/formats/spectrum.h"
 
 #include <array>
 #include <string>

@@ -1,8 +1,8 @@
 // Which levels of a schedule are the discrete ones, and from which distance on each is drawn.
 #pragma once
 
+#include "lib/formats/levels/spectrum.h"
 #include "lib/formats/result.h"
-#include "lib/formats/spectrum.h"
 #include "tools/lodbake/options.h"
 
 #include <vector>

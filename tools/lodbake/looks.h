@@ -3,7 +3,7 @@
 
 #include "lib/analysis/measure/picture.h"
 #include "lib/formats/import/image.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 #include "tools/common/tool.h"
 
 #include <filesystem>

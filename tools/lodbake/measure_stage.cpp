@@ -3,7 +3,7 @@
 #include "lib/analysis/lod/discrete_spectra.h"
 #include "lib/analysis/measure/lod_quality.h"
 #include "lib/analysis/measure/surface_distance.h"
-#include "lib/formats/spectrum_file.h"
+#include "lib/formats/levels/spectrum_file.h"
 #include "lib/runtime/levels.h"
 #include "tools/lodbake/level_pictures.h"
 #include "tools/lodbake/levels.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "lib/analysis/measure/picture.h"
-#include "lib/formats/spectrum.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/levels/spectrum.h"
+#include "lib/formats/tree/tree.h"
 #include "tools/common/tool.h"
 #include "tools/lodbake/options.h"
 

@@ -3,9 +3,9 @@
 
 #include "lib/analysis/lod/leaf_collapse.h"
 #include "lib/analysis/lod/limb_ladder.h"
-#include "lib/formats/impostors.h"
+#include "lib/formats/levels/impostors.h"
+#include "lib/formats/levels/spectrum_file.h"
 #include "lib/formats/result.h"
-#include "lib/formats/spectrum_file.h"
 #include "tools/common/tool.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "tools/lodbake/packing.h"
 
-#include "lib/formats/spectrum_leaves.h"
+#include "lib/formats/levels/spectrum_leaves.h"
 
 #include <string>
 #include <vector>

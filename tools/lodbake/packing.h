@@ -1,9 +1,9 @@
-// --encode small for the tree itself: its own sections are packed into one (lib/formats/tree_pack.h), and the
-// spectra are those of the tree as it will be read.
+// --encode small for the tree itself: its own sections are packed into one
+// (lib/formats/tree_file/tree_pack.h), and the spectra are those of the tree as it will be read.
 #pragma once
 
-#include "lib/formats/tree_file.h"
-#include "lib/formats/tree_pack.h"
+#include "lib/formats/tree_file/tree_file.h"
+#include "lib/formats/tree_file/tree_pack.h"
 #include "tools/common/context.h"
 #include "tools/lodbake/options.h"
 

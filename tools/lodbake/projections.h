@@ -1,7 +1,7 @@
 // --lines-points: how wrong the estimates are by which a runtime chooses lines and points.
 #pragma once
 
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 #include "tools/common/tool.h"
 
 namespace copse::lodbake {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "lib/analysis/measure/picture.h"
-#include "lib/formats/foliage_cells.h"
-#include "lib/formats/impostors.h"
-#include "lib/formats/spectrum.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/levels/foliage_cells.h"
+#include "lib/formats/levels/impostors.h"
+#include "lib/formats/levels/spectrum.h"
+#include "lib/formats/tree/tree.h"
 #include "tools/common/tool.h"
 #include "tools/lodbake/options.h"
 

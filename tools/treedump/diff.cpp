@@ -1,4 +1,4 @@
-#include "lib/formats/tree_sections.h"
+#include "lib/formats/tree/tree_sections.h"
 #include "tools/treedump/element.h"
 #include "tools/treedump/text.h"
 #include "tools/treedump/views.h"

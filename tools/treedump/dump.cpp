@@ -1,6 +1,6 @@
 #include "tools/treedump/dump.h"
 
-#include "lib/formats/tree_sections.h"
+#include "lib/formats/tree/tree_sections.h"
 
 #include <algorithm>
 #include <array>

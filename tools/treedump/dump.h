@@ -1,7 +1,7 @@
 // What can be known of a file, however damaged it is.
 #pragma once
 
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #include "tools/treedump/eco_view.h"
 
-#include "lib/formats/ecosystem_file.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 #include "tools/treedump/dump.h"
 #include "tools/treedump/json.h"
 #include "tools/treedump/text.h"

@@ -1,7 +1,7 @@
 // The elements of a tree's arrays, field by field: what JSON prints and --diff compares.
 #pragma once
 
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The impostor as geometry that any viewer draws: two of its pictures, upright and across one another.
 #pragma once
 
-#include "lib/formats/impostors.h"
+#include "lib/formats/levels/impostors.h"
 #include "lib/formats/mesh.h"
 
 namespace copse {

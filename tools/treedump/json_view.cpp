@@ -1,5 +1,5 @@
-#include "lib/formats/tree_sections.h"
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/tree/tree_sections.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 #include "tools/treedump/element.h"
 #include "tools/treedump/json.h"
 #include "tools/treedump/levels_view.h"

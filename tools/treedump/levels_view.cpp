@@ -1,8 +1,8 @@
 #include "tools/treedump/levels_view.h"
 
-#include "lib/formats/foliage_cells.h"
-#include "lib/formats/impostors.h"
-#include "lib/formats/spectrum_file.h"
+#include "lib/formats/levels/foliage_cells.h"
+#include "lib/formats/levels/impostors.h"
+#include "lib/formats/levels/spectrum_file.h"
 #include "lib/runtime/levels.h"
 #include "tools/treedump/text.h"
 

@@ -1,7 +1,7 @@
 // The levels of detail of a file, for its summary and its JSON.
 #pragma once
 
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tools/treedump/json.h"
 
 #include <string>

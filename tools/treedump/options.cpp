@@ -1,6 +1,6 @@
 #include "tools/treedump/options.h"
 
-#include "lib/formats/container.h"
+#include "lib/formats/container/container.h"
 #include "tools/common/option_values.h"
 
 #include <climits>

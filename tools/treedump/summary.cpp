@@ -1,4 +1,4 @@
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 #include "tools/treedump/levels_view.h"
 #include "tools/treedump/text.h"
 #include "tools/treedump/views.h"

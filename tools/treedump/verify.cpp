@@ -1,6 +1,6 @@
 #include "lib/analysis/volumes/check_certificates.h"
-#include "lib/formats/ecosystem_file.h"
-#include "lib/formats/type_hash.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
+#include "lib/formats/ecosystem/type_hash.h"
 #include "tools/treedump/levels_view.h"
 #include "tools/treedump/views.h"
 

@@ -1,8 +1,8 @@
 #include "tools/treegrow/run.h"
 
+#include "lib/formats/container/mapped_file.h"
 #include "lib/formats/export/export.h"
 #include "lib/formats/import/image.h"
-#include "lib/formats/mapped_file.h"
 #include "tools/treegrow/art.h"
 #include "tools/treegrow/join_faces.h"
 #include "tools/treegrow/species_toml.h"

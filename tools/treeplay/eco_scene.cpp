@@ -1,9 +1,9 @@
 #include "tools/treeplay/eco_scene.h"
 
-#include "lib/formats/ecosystem_file.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
+#include "lib/formats/ecosystem/type_hash.h"
 #include "lib/formats/hash.h"
-#include "lib/formats/tree_file.h"
-#include "lib/formats/type_hash.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "lib/runtime/stochastic_levels.h"
 #include "tools/treeplay/tree_levels.h"
 

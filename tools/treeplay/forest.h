@@ -1,7 +1,7 @@
 // The meshes of a forest: of every type of tree each level of detail once, and the ground that it stands on.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/runtime/matrix.h"
 #include "lib/runtime/terrain_tiles.h"
 #include "lib/runtime/tree_geometry.h"

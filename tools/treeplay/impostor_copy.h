@@ -1,7 +1,7 @@
 // An instance of a tree that is drawn as pictures of it: which of them, and how much of each.
 #pragma once
 
-#include "lib/formats/impostors.h"
+#include "lib/formats/levels/impostors.h"
 #include "tools/treeplay/forest.h"
 
 #include <array>

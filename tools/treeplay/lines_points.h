@@ -1,7 +1,7 @@
 // --lod lines-points: a tree as triangles, lines and points, chosen frame by frame (digest 000, chapter 4).
 #pragma once
 
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 #include "lib/runtime/line_point_selection.h"
 #include "lib/runtime/sky_light.h"
 #include "lib/runtime/tree_geometry.h"

@@ -1,8 +1,8 @@
 // --lod foliage: a crown by its cells, each as visible and as far as it is (digest 001).
 #pragma once
 
-#include "lib/formats/foliage_cells.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/levels/foliage_cells.h"
+#include "lib/formats/tree/tree.h"
 #include "lib/runtime/foliage_levels.h"
 #include "lib/runtime/tree_geometry.h"
 

@@ -1,7 +1,7 @@
 // Which segment or leaf each triangle of a tree's geometry belongs to.
 #pragma once
 
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 #include "lib/runtime/tree_geometry.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "tools/treeplay/scene.h"
 
 #include "lib/formats/import/import.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "tools/treeplay/eco_scene.h"
 #include "tools/treeplay/forest_sky.h"
 

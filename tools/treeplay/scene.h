@@ -1,7 +1,7 @@
 // What treeplay draws: a tree, a mesh or an ecosystem, with its materials and images, ready to be uploaded.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/import/image.h"
 #include "lib/formats/material.h"
 #include "lib/formats/result.h"

@@ -1,6 +1,6 @@
 #include "tools/treeplay/tree_levels.h"
 
-#include "lib/formats/spectrum_file.h"
+#include "lib/formats/levels/spectrum_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // The levels of detail of a tree that is drawn: which one is shown, and its triangles.
 #pragma once
 
-#include "lib/formats/impostors.h"
+#include "lib/formats/levels/impostors.h"
+#include "lib/formats/levels/spectrum.h"
 #include "lib/formats/result.h"
-#include "lib/formats/spectrum.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "lib/runtime/levels.h"
 #include "lib/runtime/tree_geometry.h"
 

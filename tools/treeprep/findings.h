@@ -5,9 +5,9 @@
 #include "lib/analysis/measure/cylinder_error.h"
 #include "lib/analysis/rings/hierarchy.h"
 #include "lib/analysis/surface/trunk_mesh.h"
-#include "lib/formats/omit.h"
 #include "lib/formats/report.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
+#include "lib/formats/tree_file/omit.h"
 
 #include <span>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "lib/analysis/trunk/recover.h"
 #include "lib/formats/mesh.h"
-#include "lib/formats/tree_file.h"
+#include "lib/formats/tree_file/tree_file.h"
 #include "lib/formats/vec.h"
 #include "tools/common/tool.h"
 
@@ -28,7 +28,7 @@ struct Options {
   double weld = -1;  // share of the bounding box's diagonal; negative: place by place (trunk/tolerances.h)
   std::vector<std::string> omit, only;  // names of parts.h
   Encoding encoding = Encoding::raw;
-  bool small = false;      // packed (lib/formats/tree_pack.h)
+  bool small = false;      // packed (lib/formats/tree_file/tree_pack.h)
   int position_bits = 14;  // of a packed tree
 };
 

@@ -1,6 +1,6 @@
 #include "tools/treeprep/parts.h"
 
-#include "lib/formats/omit.h"
+#include "lib/formats/tree_file/omit.h"
 
 #include <algorithm>
 #include <set>

@@ -7,7 +7,7 @@
 #include "lib/formats/mesh.h"
 #include "lib/formats/report.h"
 #include "lib/formats/result.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <vector>
 

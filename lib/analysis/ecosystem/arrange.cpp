@@ -2,8 +2,8 @@
 
 #include "lib/analysis/ecosystem/hilbert_curve.h"
 #include "lib/analysis/ecosystem/tilt.h"
-#include "lib/formats/instance_bounds.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/instance_bounds.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "lib/analysis/ecosystem/ground.h"
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/result.h"
 
 #include <array>

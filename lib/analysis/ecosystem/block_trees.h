@@ -4,7 +4,7 @@
 // Source: digest 002, section 3, through lib/analysis/bvh. A node has k = 4 children.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 // a grid of buckets, O(1) on terrains whose triangles are of like size.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 
 #include <cstdint>
 #include <optional>

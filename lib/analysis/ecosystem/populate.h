@@ -11,7 +11,7 @@
 
 #include "lib/analysis/ecosystem/density_field.h"
 #include "lib/analysis/ecosystem/ground.h"
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/random.h"
 #include "lib/formats/result.h"
 

@@ -1,7 +1,7 @@
 #include "lib/analysis/ecosystem/terrain_grid.h"
 
 #include "lib/analysis/ecosystem/ground.h"
-#include "lib/formats/ecosystem_file.h"
+#include "lib/formats/ecosystem/ecosystem_file.h"
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 #include "lib/analysis/ecosystem/nurbs_surface.h"
 #include "lib/analysis/ecosystem/random_faults.h"
 #include "lib/analysis/ecosystem/value_map.h"
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/result.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "lib/analysis/ecosystem/tilt.h"
 
 #include "lib/analysis/ecosystem/degrees.h"
-#include "lib/formats/instance_codec.h"
+#include "lib/formats/ecosystem/instance_codec.h"
 
 #include <cmath>
 #include <numbers>

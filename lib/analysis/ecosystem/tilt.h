@@ -5,7 +5,7 @@
 // spins about the trunk's own axis first.
 #pragma once
 
-#include "lib/formats/ecosystem.h"
+#include "lib/formats/ecosystem/ecosystem.h"
 
 namespace copse {
 

@@ -6,7 +6,7 @@
 
 #include "lib/analysis/leaves/leaf_geometry.h"
 #include "lib/formats/mesh.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <span>

@@ -3,7 +3,7 @@
 
 #include "lib/analysis/measure/alpha_raster.h"
 #include "lib/analysis/measure/view_sphere.h"
-#include "lib/formats/foliage_cells.h"
+#include "lib/formats/levels/foliage_cells.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // The triangles of a level divided between trunk and leaves so that the *picture* is best and nothing floats.
 #pragma once
 
-#include "lib/formats/spectrum.h"
+#include "lib/formats/levels/spectrum.h"
 
 #include <cstdint>
 #include <functional>

@@ -2,7 +2,7 @@
 // what its scene does not need.
 #pragma once
 
-#include "lib/formats/spectrum.h"
+#include "lib/formats/levels/spectrum.h"
 
 namespace copse {
 

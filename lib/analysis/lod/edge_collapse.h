@@ -3,7 +3,7 @@
 // never an index list.
 #pragma once
 
-#include "lib/formats/part_triangles.h"
+#include "lib/formats/levels/part_triangles.h"
 
 #include <cstdint>
 #include <vector>

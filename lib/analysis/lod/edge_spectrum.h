@@ -3,8 +3,8 @@
 #pragma once
 
 #include "lib/analysis/lod/edge_collapse.h"
-#include "lib/formats/part_triangles.h"
-#include "lib/formats/spectrum.h"
+#include "lib/formats/levels/part_triangles.h"
+#include "lib/formats/levels/spectrum.h"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Leaves that hang in the air at a level: what bore them is gone, and they do not reach what is left.
 #pragma once
 
-#include "lib/formats/spectrum.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/levels/spectrum.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <memory>

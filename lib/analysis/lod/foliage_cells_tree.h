@@ -6,8 +6,8 @@
 // for: so no cell is larger than need be, and there are no more of them.
 #pragma once
 
-#include "lib/formats/foliage_cells.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/levels/foliage_cells.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <vector>

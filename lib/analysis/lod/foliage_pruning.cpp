@@ -4,7 +4,7 @@
 #include "lib/analysis/lod/foliage_cells_tree.h"
 #include "lib/analysis/lod/radius_ancestors.h"
 #include "lib/analysis/lod/spectrum_builder.h"
-#include "lib/formats/part_triangles.h"
+#include "lib/formats/levels/part_triangles.h"
 #include "lib/formats/random.h"
 
 #include <algorithm>

@@ -7,9 +7,9 @@
 #pragma once
 
 #include "lib/analysis/measure/alpha_raster.h"
-#include "lib/formats/foliage_cells.h"
-#include "lib/formats/spectrum.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/levels/foliage_cells.h"
+#include "lib/formats/levels/spectrum.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <vector>

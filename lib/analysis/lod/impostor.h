@@ -1,12 +1,12 @@
 // impostor: a tree as pictures of it: the last level, from where it is a few pixels tall.
 //
-// The atlas of lib/formats/impostors.h, painted: beside colour and alpha the normal and the depth, for light
-// and parallax. (Digest 003, section 9.)
+// The atlas of lib/formats/levels/impostors.h, painted: beside colour and alpha the normal and the depth, for
+// light and parallax. (Digest 003, section 9.)
 #pragma once
 
 #include "lib/analysis/measure/drawn_mesh.h"
 #include "lib/analysis/measure/picture.h"
-#include "lib/formats/impostors.h"
+#include "lib/formats/levels/impostors.h"
 
 #include <cstdint>
 #include <vector>

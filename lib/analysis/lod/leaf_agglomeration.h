@@ -13,8 +13,8 @@
 #include "lib/analysis/lod/leaf_pieces.h"
 #include "lib/analysis/lod/radius_ancestors.h"
 #include "lib/analysis/measure/alpha_raster.h"
-#include "lib/formats/spectrum.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/levels/spectrum.h"
+#include "lib/formats/tree/tree.h"
 
 namespace copse {
 

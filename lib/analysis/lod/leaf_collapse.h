@@ -8,8 +8,8 @@
 #pragma once
 
 #include "lib/analysis/measure/alpha_raster.h"
-#include "lib/formats/spectrum.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/levels/spectrum.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 

@@ -1,8 +1,8 @@
 // leaf_pieces: the leaves of a tree cut into what is connected: cards, triangles, fronds.
 #pragma once
 
-#include "lib/formats/part_triangles.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/levels/part_triangles.h"
+#include "lib/formats/tree/tree.h"
 
 #include <array>
 #include <cstdint>

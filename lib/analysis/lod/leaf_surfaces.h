@@ -7,7 +7,7 @@
 #pragma once
 
 #include "lib/analysis/lod/leaf_pieces.h"
-#include "lib/formats/spectrum.h"
+#include "lib/formats/levels/spectrum.h"
 
 #include <optional>
 

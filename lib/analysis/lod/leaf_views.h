@@ -7,7 +7,7 @@
 #pragma once
 
 #include "lib/analysis/lod/leaf_raster.h"
-#include "lib/formats/spectrum.h"
+#include "lib/formats/levels/spectrum.h"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // limb by limb, from the tip of the hierarchy to its root.
 #pragma once
 
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <vector>

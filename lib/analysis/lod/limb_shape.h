@@ -4,8 +4,8 @@
 
 #include "lib/analysis/lod/limb_chains.h"
 #include "lib/analysis/lod/spectrum_builder.h"
-#include "lib/formats/part_triangles.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/levels/part_triangles.h"
+#include "lib/formats/tree/tree.h"
 
 #include <array>
 #include <cstdint>

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "lib/analysis/lod/patch.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 // radius_ancestors: which radius bears two others.
 #pragma once
 
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <vector>

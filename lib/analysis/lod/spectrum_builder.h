@@ -9,7 +9,7 @@
 //   Spectrum s = b.finish();
 #pragma once
 
-#include "lib/formats/spectrum.h"
+#include "lib/formats/levels/spectrum.h"
 
 #include <cstdint>
 #include <span>

@@ -4,7 +4,7 @@
 // leaves is a forest of collapses, of which any order will do that has children before parents.
 #pragma once
 
-#include "lib/formats/spectrum.h"
+#include "lib/formats/levels/spectrum.h"
 
 #include <cstdint>
 #include <span>

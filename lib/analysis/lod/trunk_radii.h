@@ -4,8 +4,8 @@
 #pragma once
 
 #include "lib/analysis/lod/limb_ladder.h"
-#include "lib/formats/spectrum.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/levels/spectrum.h"
+#include "lib/formats/tree/tree.h"
 
 namespace copse {
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "lib/analysis/measure/texture_statistics.h"
+#include "lib/formats/levels/spectrum.h"
 #include "lib/formats/mesh.h"
-#include "lib/formats/spectrum.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <functional>

@@ -3,7 +3,7 @@
 
 #include "lib/analysis/tree/leaf_arrays.h"
 #include "lib/analysis/tree/trunk_arrays.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <vector>

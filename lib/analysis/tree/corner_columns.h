@@ -4,7 +4,7 @@
 
 #include "lib/formats/array.h"
 #include "lib/formats/mesh.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,10 +1,10 @@
 // tree_parts: the vertices of a tree and of its parts, and the triangles between them.
 #pragma once
 
-#include "lib/formats/foliage_cells.h"
+#include "lib/formats/levels/foliage_cells.h"
 #include "lib/formats/mesh.h"
-#include "lib/formats/tree.h"
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/tree/tree.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 
 #include <cstdint>
 #include <span>

@@ -4,7 +4,7 @@
 
 #include "lib/analysis/rings/hierarchy.h"
 #include "lib/analysis/surface/trunk_mesh.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 namespace copse {
 

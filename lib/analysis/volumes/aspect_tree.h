@@ -9,7 +9,7 @@
 #pragma once
 
 #include "lib/formats/result.h"
-#include "lib/formats/volume_numbers.h"
+#include "lib/formats/volumes/volume_numbers.h"
 
 #include <array>
 #include <span>

@@ -6,7 +6,7 @@
 
 #include "lib/analysis/volumes/bounded_fit.h"
 #include "lib/analysis/volumes/point_cloud.h"
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 #include <cstdint>
 #include <vector>

@@ -6,7 +6,7 @@
 
 #include "lib/analysis/volumes/deadline.h"
 #include "lib/analysis/volumes/swept_shape.h"
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 #include <span>
 
@@ -14,7 +14,7 @@ namespace copse {
 
 double interior_volume(const Capsule<double>& c);
 
-// The distance of p from the segment, by the inequality of lib/formats/volume.h.
+// The distance of p from the segment, by the inequality of lib/formats/volumes/volume.h.
 double distance_from_segment(const Capsule<double>& c, const Double3& p);
 
 // The capsule with its radius as large as these points need, by that inequality in double arithmetic; O(n).

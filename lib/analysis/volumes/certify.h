@@ -1,4 +1,5 @@
-// certify: whether every point lies inside a volume, exactly, by the inequality of lib/formats/volume.h.
+// certify: whether every point lies inside a volume, exactly, by the inequality of
+// lib/formats/volumes/volume.h.
 //
 // The numbers are taken as they are, so what is proven holds for the volume as written. Doubles with a
 // running bound of their rounding error decide all points but those within a few roundings of the surface;
@@ -7,7 +8,7 @@
 // Source: running error analysis: N. J. Higham, "Accuracy and Stability of Numerical Algorithms" (2002), 3.3.
 #pragma once
 
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 #include <cstddef>
 #include <span>

@@ -2,9 +2,9 @@
 // parts, in exact arithmetic.
 #pragma once
 
-#include "lib/formats/foliage_cells.h"
-#include "lib/formats/tree.h"
-#include "lib/formats/tree_volumes.h"
+#include "lib/formats/levels/foliage_cells.h"
+#include "lib/formats/tree/tree.h"
+#include "lib/formats/tree_file/tree_volumes.h"
 
 #include <span>
 #include <string>

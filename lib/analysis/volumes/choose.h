@@ -6,7 +6,7 @@
 #pragma once
 
 #include "lib/analysis/volumes/volume_measures.h"
-#include "lib/formats/volume_numbers.h"
+#include "lib/formats/volumes/volume_numbers.h"
 
 #include <array>
 #include <span>

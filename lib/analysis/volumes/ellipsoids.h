@@ -10,7 +10,7 @@
 #include "lib/analysis/volumes/bounded_fit.h"
 #include "lib/analysis/volumes/convex_hull.h"
 #include "lib/analysis/volumes/deadline.h"
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 namespace copse {
 

@@ -11,7 +11,7 @@
 // two units while the others grow by at most 1.3.
 #pragma once
 
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 #include <optional>
 #include <span>

@@ -11,7 +11,7 @@
 #include "lib/analysis/volumes/deadline.h"
 #include "lib/analysis/volumes/volume_measures.h"
 #include "lib/formats/result.h"
-#include "lib/formats/volume_numbers.h"
+#include "lib/formats/volumes/volume_numbers.h"
 
 #include <memory>
 #include <optional>

@@ -4,7 +4,7 @@
 // bounding volume hierarchies of k-DOPs" (1998); other counts: directions of a Fibonacci spiral.
 #pragma once
 
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 #include <span>
 #include <vector>

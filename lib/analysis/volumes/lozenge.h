@@ -4,7 +4,7 @@
 #pragma once
 
 #include "lib/analysis/volumes/swept_shape.h"
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 #include <span>
 
@@ -12,7 +12,7 @@ namespace copse {
 
 double interior_volume(const Lozenge<double>& l);
 
-// The distance of p from the rectangle, by the inequality of lib/formats/volume.h.
+// The distance of p from the rectangle, by the inequality of lib/formats/volumes/volume.h.
 double distance_from_rectangle(const Lozenge<double>& l, const Double3& p);
 
 // The lozenge with its radius as large as these points need, by that inequality in double arithmetic; O(n).

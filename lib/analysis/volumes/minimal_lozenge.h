@@ -9,7 +9,7 @@
 #include "lib/analysis/volumes/bounded_fit.h"
 #include "lib/analysis/volumes/convex_hull.h"
 #include "lib/analysis/volumes/swept_bound.h"
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 namespace copse {
 

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "lib/formats/vec.h"
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 #include <array>
 #include <cstdint>

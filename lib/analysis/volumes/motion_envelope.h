@@ -5,7 +5,7 @@
 // an envelope is computed.
 #pragma once
 
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 #include "lib/formats/vec.h"
 
 #include <span>

@@ -6,7 +6,7 @@
 
 #include "lib/analysis/volumes/convex_hull.h"
 #include "lib/analysis/volumes/frame.h"
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 namespace copse {
 

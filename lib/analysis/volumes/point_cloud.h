@@ -8,7 +8,7 @@
 
 #include "lib/formats/result.h"
 #include "lib/formats/vec.h"
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 #include <cstdint>
 #include <span>

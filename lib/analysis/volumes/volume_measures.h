@@ -6,7 +6,7 @@
 // balls; for ellipsoids Carlson's R_G (DLMF 19.23.6, 19.33.1); for k-DOPs the polyhedron's faces and edges.
 #pragma once
 
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 namespace copse {
 

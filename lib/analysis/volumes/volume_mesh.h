@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/formats/mesh.h"
-#include "lib/formats/volume.h"
+#include "lib/formats/volumes/volume.h"
 
 #include <vector>
 

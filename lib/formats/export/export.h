@@ -3,7 +3,7 @@
 
 #include "lib/formats/mesh.h"
 #include "lib/formats/result.h"
-#include "lib/formats/tree.h"
+#include "lib/formats/tree/tree.h"
 
 #include <cstdint>
 #include <string>
