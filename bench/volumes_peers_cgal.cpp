@@ -1,5 +1,5 @@
 #include "bench/volumes_peers.h"
-#include "lib/analysis/volumes/oriented_boxes.h"
+#include "lib/analysis/boxes/oriented_boxes.h"
 
 #include <cmath>
 #include <vector>

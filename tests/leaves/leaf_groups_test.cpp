@@ -1,6 +1,6 @@
 #include "lib/analysis/leaves/leaf_groups.h"
 
-#include "lib/analysis/volumes/minimal_sphere.h"
+#include "lib/analysis/round/minimal_sphere.h"
 #include "lib/formats/random.h"
 #include "lib/formats/volumes/sphere_contains.h"
 #include "tests/leaves/shapes.h"

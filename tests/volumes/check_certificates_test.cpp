@@ -1,7 +1,7 @@
 #include "lib/analysis/volumes/check_certificates.h"
 
+#include "lib/analysis/round/minimal_sphere.h"
 #include "lib/analysis/tree/tree_parts.h"
-#include "lib/analysis/volumes/minimal_sphere.h"
 #include "tests/formats/tree_maker.h"
 
 #include <numeric>

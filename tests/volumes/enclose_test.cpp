@@ -1,7 +1,7 @@
 #include "lib/analysis/volumes/enclose.h"
 
+#include "lib/analysis/round/minimal_sphere.h"
 #include "lib/analysis/volumes/certify.h"
-#include "lib/analysis/volumes/minimal_sphere.h"
 #include "tests/volumes/point_sets.h"
 
 #include <numbers>

@@ -1,7 +1,7 @@
 // Hulls for tests whose points are about 1 in size already: in the points' own coordinates.
 #pragma once
 
-#include "lib/analysis/volumes/convex_hull.h"
+#include "lib/analysis/hull/convex_hull.h"
 
 #include <gtest/gtest.h>
 

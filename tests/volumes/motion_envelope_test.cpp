@@ -1,7 +1,7 @@
 #include "lib/analysis/volumes/motion_envelope.h"
 
+#include "lib/analysis/hull/convex_hull.h"
 #include "lib/analysis/volumes/certify.h"
-#include "lib/analysis/volumes/convex_hull.h"
 #include "lib/formats/random.h"
 #include "tests/formats/tree_maker.h"
 

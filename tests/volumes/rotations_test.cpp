@@ -1,11 +1,11 @@
 // The least volume round a few points is the same however they are turned: small hulls have few, deep
 // valleys, and a search that depends on the axes misses some of them.
-#include "lib/analysis/volumes/capsule.h"
-#include "lib/analysis/volumes/cylinders.h"
-#include "lib/analysis/volumes/lozenge.h"
-#include "lib/analysis/volumes/minimal_box.h"
-#include "lib/analysis/volumes/minimal_capsule.h"
-#include "lib/analysis/volumes/minimal_lozenge.h"
+#include "lib/analysis/boxes/minimal_box.h"
+#include "lib/analysis/round/cylinders.h"
+#include "lib/analysis/swept/capsule.h"
+#include "lib/analysis/swept/lozenge.h"
+#include "lib/analysis/swept/minimal_capsule.h"
+#include "lib/analysis/swept/minimal_lozenge.h"
 #include "lib/analysis/volumes/volume_measures.h"
 #include "lib/formats/random.h"
 

@@ -1,6 +1,6 @@
 #include "lib/analysis/volumes/volume_measures.h"
 
-#include "lib/analysis/volumes/kdop.h"
+#include "lib/analysis/boxes/kdop.h"
 #include "tests/volumes/point_sets.h"
 
 #include <numbers>

@@ -1,8 +1,8 @@
 #include "tools/bvfit/input.h"
 
 #include "lib/analysis/leaves/classify.h"
+#include "lib/analysis/round/minimal_sphere.h"
 #include "lib/analysis/tree/tree_parts.h"
-#include "lib/analysis/volumes/minimal_sphere.h"
 #include "lib/analysis/volumes/motion_envelope.h"
 #include "lib/formats/import/import.h"
 #include "lib/formats/import/xyz.h"

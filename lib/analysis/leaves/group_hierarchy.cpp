@@ -1,6 +1,6 @@
 #include "lib/analysis/leaves/group_hierarchy.h"
 
-#include "lib/analysis/volumes/minimal_sphere.h"
+#include "lib/analysis/round/minimal_sphere.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,7 +2,7 @@
 
 #include "lib/analysis/leaves/merge_groups.h"
 #include "lib/analysis/leaves/nearest_points.h"
-#include "lib/analysis/volumes/minimal_sphere.h"
+#include "lib/analysis/round/minimal_sphere.h"
 #include "lib/formats/random.h"
 
 #include <algorithm>

@@ -1,18 +1,18 @@
 #include "lib/analysis/volumes/fit_volumes.h"
 
+#include "lib/analysis/boxes/kdop.h"
+#include "lib/analysis/boxes/minimal_box.h"
+#include "lib/analysis/boxes/oriented_boxes.h"
+#include "lib/analysis/round/bounding_spheres.h"
+#include "lib/analysis/round/cylinders.h"
+#include "lib/analysis/round/ellipsoids.h"
+#include "lib/analysis/swept/capsule.h"
+#include "lib/analysis/swept/lozenge.h"
+#include "lib/analysis/swept/minimal_capsule.h"
+#include "lib/analysis/swept/minimal_lozenge.h"
 #include "lib/analysis/volumes/bounded_fit.h"
-#include "lib/analysis/volumes/bounding_spheres.h"
-#include "lib/analysis/volumes/capsule.h"
 #include "lib/analysis/volumes/certify.h"
-#include "lib/analysis/volumes/cylinders.h"
-#include "lib/analysis/volumes/ellipsoids.h"
 #include "lib/analysis/volumes/enclose.h"
-#include "lib/analysis/volumes/kdop.h"
-#include "lib/analysis/volumes/lozenge.h"
-#include "lib/analysis/volumes/minimal_box.h"
-#include "lib/analysis/volumes/minimal_capsule.h"
-#include "lib/analysis/volumes/minimal_lozenge.h"
-#include "lib/analysis/volumes/oriented_boxes.h"
 
 #include <algorithm>
 #include <charconv>

@@ -7,8 +7,8 @@
 // Source: digest 002, section 4, and its checklist; the methods are in headers of their own.
 #pragma once
 
-#include "lib/analysis/volumes/convex_hull.h"
-#include "lib/analysis/volumes/deadline.h"
+#include "lib/analysis/hull/convex_hull.h"
+#include "lib/analysis/hull/deadline.h"
 #include "lib/analysis/volumes/volume_measures.h"
 #include "lib/formats/result.h"
 #include "lib/formats/volumes/volume_numbers.h"

@@ -1,5 +1,5 @@
 // The polyhedron of a k-DOP: each plane's facet is a square cut by all other planes.
-#include "lib/analysis/volumes/frame.h"
+#include "lib/analysis/hull/frame.h"
 #include "lib/analysis/volumes/volume_measures.h"
 
 #include <algorithm>

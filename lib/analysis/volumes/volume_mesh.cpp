@@ -1,6 +1,6 @@
 #include "lib/analysis/volumes/volume_mesh.h"
 
-#include "lib/analysis/volumes/convex_hull.h"
+#include "lib/analysis/hull/convex_hull.h"
 
 #include <array>
 #include <cmath>

@@ -1,0 +1,49 @@
+#include "lib/analysis/hull/hull_loss.h"
+
+#include "tests/volumes/point_sets.h"
+
+#include <gtest/gtest.h>
+
+namespace copse {
+namespace {
+
+TEST(HullLoss, IsAtLeastTheDistanceAndNotMuchMore) {
+  const ConvexHull hull = convex_hull(make_point_cloud(on_sphere(1, 300)).value());
+  EXPECT_LE(hull_loss(hull, hull.vertices).distance, 1e-14);
+  EXPECT_EQ(hull_loss(hull, hull.vertices).outside, hull.vertices);
+  const std::vector<Double3> middle{hull.box.centre()};
+  EXPECT_TRUE(hull_loss(hull, middle).outside.empty());
+  const double unit = 1 / hull.frame.scale;
+  for (const Double3& p : on_sphere(2, 200)) {
+    const std::vector<Double3> out{hull.frame.in(p * 1.5)};
+    double plane = 0;  // the largest distance from a facet's plane is a lower bound
+    for (const auto& f : hull.faces) {
+      const Double3 a = hull.vertices[f[0]];
+      plane = std::max(plane,
+                       dot(normalized(cross(hull.vertices[f[1]] - a, hull.vertices[f[2]] - a)), out[0] - a));
+    }
+    const double loss = hull_loss(hull, out).distance;
+    EXPECT_GE(loss, plane * (1 - 1e-12));
+    EXPECT_LE(loss, 0.75 * unit);
+  }
+}
+
+TEST(HullLoss, OfAKernelIsReportedByTheHullAndCoversEveryPoint) {
+  const PointCloud cloud = make_point_cloud(on_sphere(3, 20000)).value();
+  const ConvexHull hull = convex_hull(cloud, {.max_candidates = 1000});
+  EXPECT_LE(hull.vertices.size(), 1000u);
+  EXPECT_EQ(hull.boundary.size(), 20000u);
+  EXPECT_GT(hull.loss, 0);
+  EXPECT_LT(hull.loss, 0.02);
+  for (const auto& f : hull.faces) {
+    const Double3 a = hull.vertices[f[0]];
+    const Double3 n = normalized(cross(hull.vertices[f[1]] - a, hull.vertices[f[2]] - a));
+    double worst = 0;
+    for (std::size_t i = 0; i < cloud.points.size(); i += 37)
+      worst = std::max(worst, dot(n, cloud.points[i] - a));
+    EXPECT_LE(worst, hull.loss);
+  }
+}
+
+}  // namespace
+}  // namespace copse
