@@ -9,10 +9,20 @@
 namespace copse {
 namespace {
 
+struct Least {
+  double stored = 0, fitted = 0;
+};
 struct Row {
   std::size_t fitted = 0, beyond_float32 = 0, outside = 0;
-  std::array<double, k_volume_kinds> least{};  // of each kind, by its search
+  std::array<Least, k_volume_kinds> least{};  // of each kind, by its search
 };
+
+// The volume as stored and, where that is more than a thousandth, what float32 has added to the fit.
+std::string cell(const Least& v) {
+  if (v.stored <= v.fitted * 1.001) return fmt::format("{:.6g}", v.stored);
+  if (v.fitted <= v.stored * 1e-4) return fmt::format("{:.6g} (all of it float32's)", v.stored);
+  return fmt::format("{:.6g} (float32 +{:.2g} %)", v.stored, 100 * (v.stored / v.fitted - 1));
+}
 
 Row fit_all(const VolumeFitter& fitter, const Points& points) {
   Row row;
@@ -24,7 +34,7 @@ Row fit_all(const VolumeFitter& fitter, const Points& points) {
     }
     ++row.fitted;
     row.outside += certify(v->volume, points).outside;
-    if (method.least) row.least[static_cast<std::size_t>(method.kind)] = v->measures.volume;
+    if (method.least) row.least[static_cast<std::size_t>(method.kind)] = {v->measures.volume, v->fitted};
   }
   return row;
 }
@@ -47,7 +57,7 @@ int run() {
     fmt::print("| {} | {} | {} | {} | {} | {} |", set.name, set.points.size(), fitter->hull().dimension,
                row.fitted, row.beyond_float32, row.outside);
     for (const VolumeKind kind : k_columns)
-      fmt::print(" {:.6g} |", row.least[static_cast<std::size_t>(kind)]);
+      fmt::print(" {} |", cell(row.least[static_cast<std::size_t>(kind)]));
     fmt::print("\n");
   }
   fmt::print("\n{} volumes round {} sets, {} points outside, in exact arithmetic and as stored.\n", volumes,

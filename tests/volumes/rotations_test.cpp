@@ -123,7 +123,7 @@ TEST(Rotations, DoNotChangeTheLeastCylindersRoundPlates) {
         Points there;
         for (const Double3& p : points) there.push_back(into(frame, p));
         // Ends that are `thick` apart tell the axis to a rounding of that, by which the rim rises and falls.
-        EXPECT_NEAR(least_volumes(there)[2] / base, 1, 1e-6 + 5e-15 / thick / thick) << thick << ", " << n;
+        EXPECT_NEAR(least_volumes(there)[2] / base, 1, 1e-6 + 1e-16 / thick / thick) << thick << ", " << n;
       }
     }
   }

@@ -180,18 +180,19 @@ std::string not_asked_text(std::span<const SetFit> fits) {
 }
 
 std::string unproven_text(std::span<const SetFit> fits) {
-  constexpr double k_unit = 0x1p-23;  // by which what is stored may be rounded outward, of the size
+  constexpr double k_rounding = 1e-6;
   std::size_t searched = 0, unproven = 0;
   double worst = 0;
   std::string of;
   for (const SetFit& fit : fits) {
     for (const FittedVolume& v : fit.volumes) {
-      const double wanted = exact_gap(v.method.kind), volume = v.measures.volume;
+      const double wanted = exact_gap(v.method.kind);
       if (!v.method.least || !std::isfinite(wanted) || is_flat(v.measures, fit.size)) continue;
       ++searched;
+      // What float32 adds on the way out is told apart.
       const double gap =
-          v.lower_bound > 0 ? volume / v.lower_bound - 1 : std::numeric_limits<double>::infinity();
-      if (gap <= wanted + 1e-4 + k_unit * fit.size * v.measures.surface / volume) continue;
+          v.lower_bound > 0 ? v.fitted / v.lower_bound - 1 : std::numeric_limits<double>::infinity();
+      if (gap <= wanted + k_rounding) continue;
       ++unproven;
       if (gap / wanted <= worst) continue;
       worst = gap / wanted;

@@ -48,17 +48,20 @@ void add_options(CLI::App& app, Options& options) {
   what->add_option("--volumes", options.volumes,
                    "all, or of aabb, sphere, obb, capsule, lozenge, cylinder, ellipsoid, kdop")
       ->delimiter(',')
+      ->allow_extra_args(false)  // the next argument may be the input
       ->type_name("TYPE,...")
       ->default_str("all");
   what->add_option("--methods", options.methods,
                    "all, best (of each type), or methods by name (the table of --methods all lists them)")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("NAME,...")
       ->default_str("best");
   what->add_option("--per", options.per,
                    "whole, trunk, leaves, groups, segments, cells (these three bring the others along), or "
                    "parts: every object of a scene")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("PART,...")
       ->default_str("whole");
   add_choice<FitQuality>(

@@ -62,6 +62,7 @@ Json volume_json(const FittedVolume& v, bool times) {
   } else {
     j["lower_bound"] = nullptr;
   }
+  j["fitted"] = v.fitted;
   j["certified"] = v.certified;
   put_numbers(j, to_double(v.volume));
   j["surface"] = v.measures.surface;

@@ -1,6 +1,7 @@
 #include "lib/analysis/round/cylinders.h"
 
 #include "lib/analysis/hull/frame.h"
+#include "lib/analysis/hull/grid_axis.h"
 #include "lib/analysis/hull/principal_axes.h"
 #include "lib/analysis/round/smallest_circle.h"
 
@@ -21,6 +22,8 @@ constexpr std::size_t k_small_hull = 60, k_kept_small = 16;
 constexpr std::size_t k_polished = 1, k_polished_small = 4;  // ends that are descended to the last digit
 constexpr int k_rounds = 100;                                // of a descent; some 40 do
 constexpr double k_rounding = 1e-12;
+constexpr int k_double_bits = 53;
+constexpr double k_least_reach = 0x1p-52;  // so that a segment or a point has ends that tell its axis
 
 double volume_of(double radius, double height) {
   return std::numbers::pi * radius * radius * height;
@@ -62,16 +65,13 @@ Tube tube_along(std::span<const Double3> points, const Double3& direction) {
   return t;
 }
 
-// The ends, rounded, tell the axis' direction to 2^-53 over the length between them, and points at a distance
-// of about 1 across it leave by as much along it. So the length is at least about the root of that, and the
-// ends are moved out by what the direction can be wrong.
-constexpr double k_least_length = 0x1p-25;
-constexpr double k_end_error = 0x1p-50;
-
+// Its ends tell the direction of the axis as well as doubles can, and are moved out by what that leaves.
 Cylinder<double> cylinder_of(const Tube& t) {
-  const double length = std::max(t.high - t.low, k_least_length);
-  const double more = (length - (t.high - t.low)) / 2 + k_end_error * t.radius / length;
-  return {t.centre + t.direction * (t.low - more), t.centre + t.direction * (t.high + more), t.radius};
+  const double length = t.high - t.low;
+  const double reach = std::max(t.radius, k_least_reach);
+  const GridAxis ends =
+      grid_axis({t.centre + t.direction * t.low, t.direction, length, t.radius, reach}, k_double_bits);
+  return {ends.a, ends.b, t.radius};
 }
 
 // --- the search -------------------------------------------------------------------------------------------

@@ -17,8 +17,8 @@
 
 namespace copse {
 
-// All in cloud coordinates. Where the points have no length along the axis, the cylinder has 2^-40: its
-// direction must be told by its ends.
+// All in cloud coordinates. Where the points have no length along the axis, the cylinder has some 2^-28: its
+// direction must be told by its ends (grid_axis.h).
 Cylinder<double> line_fit_cylinder(const PointCloud& cloud);
 
 // In the same direction, about the smallest circle round the projected points. Never larger.

@@ -1,5 +1,6 @@
 #include "lib/analysis/volumes/enclose.h"
 
+#include "lib/analysis/hull/grid_axis.h"
 #include "lib/analysis/volumes/certify.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@ namespace {
 
 constexpr float k_infinity = std::numeric_limits<float>::infinity();
 constexpr double k_denormal = std::numeric_limits<float>::denorm_min();
+constexpr int k_float_bits = 24;
 constexpr int k_growths = 40;  // pads double each time: more than enough to pass from one unit to anything
 
 using Points = std::span<const Double3>;
@@ -148,20 +150,27 @@ Lozenge<float> store(const Lozenge<double>& v, Points points, int growth) {
   return l;
 }
 
-// Ends moved outward along the axis, which turns it a little once they are rounded; no radius yet.
+// Ends between whose planes the points lie, on a line that keeps the axis' direction; no radius yet.
 Cylinder<float> with_ends(const Cylinder<double>& v, Points points, int growth) {
-  const Near frame(points, narrow(v.a));
-  const Double3 axis = normalized(v.b - v.a);
-  double low = std::numeric_limits<double>::infinity(), high = -low, size = 0;
+  const Near near(points, narrow(v.a));
+  const Double3 axis = normalized(v.b - v.a), start = near.in(v.a);
+  double low = std::numeric_limits<double>::infinity(), high = -low, squared = 0, size = 0;
   for (const Double3& p : points) {
-    const double t = dot(axis, frame.in(p));
-    low = std::min(low, t), high = std::max(high, t), size = std::max(size, length(frame.in(p)));
+    const Double3 q = near.in(p)-start;
+    const double t = dot(axis, q);
+    const Double3 away = q - axis * t;
+    low = std::min(low, t), high = std::max(high, t);
+    squared = std::max(squared, dot(away, away)), size = std::max(size, length(near.in(p)));
   }
-  const Double3 from = to_double(narrow(v.a));
   // Units of the coordinates too: ends that round to the same point are no cylinder.
-  double pad = pad_of(growth, std::max(frame.out(size), length(from)));
+  double pad = pad_of(growth, std::max(near.out(size), length(v.a)));
   if (growth > 1) pad = std::max(pad, std::ldexp(k_denormal, growth - 2));
-  return {narrow(from + axis * (frame.out(low) - pad)), narrow(from + axis * (frame.out(high) + pad)), 0};
+  const double radius = near.out(std::sqrt(squared));
+  const double reach = std::max(radius, near.out(size) * 0x1p-60);  // planes even where there is no radius
+  const GridAxis ends =
+      grid_axis({v.a + axis * (near.out(low) - pad), axis, near.out(high - low) + 2 * pad, radius, reach},
+                k_float_bits);
+  return {narrow(ends.a), narrow(ends.b), 0};
 }
 
 // What the points need between these ends.
@@ -261,6 +270,28 @@ std::optional<Volume<float>> grown(const V& fitted, Points from, Points points, 
   return std::nullopt;
 }
 
+// The ends lie on the line, or as near to it as float32 can say, and their difference is a float32 too: so
+// the capsule is a lozenge of one edge as well. What has no thickness may have ends whose difference is none.
+std::optional<Volume<float>> grown(const Capsule<double>& fitted, Points from, Points points, int growths) {
+  const auto on_ends = [&](const Capsule<double>& c) -> std::optional<Capsule<float>> {
+    for (int growth = 0; growth < growths; ++growth) {
+      const Capsule<float> stored = store(c, from, growth);
+      if (certify(stored, points).holds()) return stored;
+    }
+    return std::nullopt;
+  };
+  constexpr float k_units = 8;  // of the ends: a radius below it is mostly their rounding
+  constexpr double k_clearly = 0.5;
+  const Double3 d = fitted.b - fitted.a;
+  const GridAxis ends = grid_axis({fitted.a, normalized(d), length(d), fitted.radius, 0}, k_float_bits);
+  const auto on_grid = on_ends({ends.a, ends.b, fitted.radius});
+  if (!on_grid) return std::nullopt;
+  const double reach = std::max(length(fitted.a), length(fitted.b));
+  if (on_grid->radius > k_units * unit_of(static_cast<float>(reach))) return *on_grid;
+  const auto nearest = on_ends(fitted);
+  return nearest && nearest->radius < k_clearly * on_grid->radius ? *nearest : *on_grid;
+}
+
 // Of a needle a unit of the length is thick: the ends grow first, with a radius that holds anything, and the
 // radius then for itself, by what double arithmetic has lost of the length, 2^-48, and more of it.
 std::optional<Volume<float>> grown(const Cylinder<double>& fitted, Points from, Points points, int growths) {
@@ -281,8 +312,8 @@ std::optional<Volume<float>> grown(const Cylinder<double>& fitted, Points from, 
 }  // namespace
 
 std::optional<Enclosed> enclose(const Volume<double>& fitted, Points points, Points corners) {
-  // From corners only as long as units in the last place are enough.
-  constexpr int k_corner_growths = 4;
+  // From corners only where they are enough as they are: what pads them is more than the thinnest needs.
+  constexpr int k_corner_growths = 1;
   for (const Points from : {corners, points}) {
     if (from.empty()) continue;
     const int growths = from.data() == points.data() ? k_growths : k_corner_growths;

@@ -1,13 +1,14 @@
 // enclose: a fitted volume as float32 that is proven to contain every point as stored.
 //
-// What places and turns the volume (centres, axes, ends) is rounded to the nearest float32; what sizes it is
-// then taken anew from the points against those rounded numbers and rounded up, and grown by units in the
-// last place until certify.h says that no point is outside. So nothing of the fitter's arithmetic is trusted.
+// What places and turns the volume is rounded to the nearest float32 (centres, axes) or to ends that keep the
+// line (grid_axis.h); what sizes it is then taken anew from the points against those rounded numbers and
+// rounded up, and grown by units in the last place until certify.h says that no point is outside. So nothing
+// of the fitter's arithmetic is trusted.
 //
 // Inflation: a few units in the last place of the volume's size (of a cylinder's radius: of its own), or of
 // the coordinates where it lies far from the origin. Two inequalities of volume.h cannot be met that closely
-// by a set of no thickness: a cylinder across a tilted plane gets the thinnest height at which its axis still
-// has a direction (about the square root of a unit), and an ellipsoid's axis of length 0 becomes one of about
+// by a set of no thickness: a cylinder across a tilted plane gets the height at which its axis still has a
+// direction (4.5e-5 of its radius), and an ellipsoid's axis of length 0 becomes one of about
 // two units while the others grow by at most 1.3.
 #pragma once
 

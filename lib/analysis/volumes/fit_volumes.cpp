@@ -19,8 +19,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-
-#include <fmt/format.h>
+#include <type_traits>
 
 namespace copse {
 namespace {
@@ -116,21 +115,19 @@ BoundedFit<Capsule<double>> capsule_with(const Prepared& p, const SweptBoundOpti
   const Fit circle = projected_circle(p, {FitQuality::balanced, options.deadline.share(4)});
   return minimal_capsule(p.hull(), std::get<Capsule<double>>(circle.volume), options);
 }
-BoundedFit<Capsule<double>> capsule_of(const Prepared& p, const FitOptions& how) {
-  return capsule_with(p, limits<SweptBoundOptions>(how, k_capsule_gap));
-}
-Capsule<double> unproven_capsule(const Prepared& p, const Deadline& deadline) {
-  SweptBoundOptions options;
-  options.deadline = deadline;
-  return capsule_with(p, options).volume;
-}
-// The lozenge starts from the capsule, which no lozenge need be worse than.
+// The lozenge starts from the capsule, which no lozenge need be worse than: from that of the same quality,
+// whose proof may have found a smaller one.
 Fit least_lozenge(const Prepared& p, const FitOptions& how) {
-  if (!p.capsule) p.capsule = unproven_capsule(p, how.deadline.share(3));
+  if (!p.capsule) {
+    auto options = limits<SweptBoundOptions>(how, k_capsule_gap);
+    if (how.deadline.is_set()) options.gap = std::numeric_limits<double>::infinity();
+    options.deadline = how.deadline.share(3);
+    p.capsule = capsule_with(p, options).volume;
+  }
   return bounded(minimal_lozenge(p.hull(), *p.capsule, limits<SweptBoundOptions>(how, k_lozenge_gap)));
 }
 Fit least_capsule(const Prepared& p, const FitOptions& how) {
-  BoundedFit<Capsule<double>> fit = capsule_of(p, how);
+  BoundedFit<Capsule<double>> fit = capsule_with(p, limits<SweptBoundOptions>(how, k_capsule_gap));
   p.capsule = fit.volume;
   return bounded(std::move(fit));
 }
@@ -240,28 +237,36 @@ Fit fit_by(const FitMethod& method, const Prepared& p, const FitOptions& how) {
   return fit_entry(index_of(method.kind, method.name), p, how);
 }
 
-// A ball or a capsule as the type that is to hold it; none where it is not one of that.
+// A ball or a capsule as the type that is to hold it; none where it is not one of that. Stored ones keep
+// their numbers: none where float32 cannot hold the edge.
+template <class T>
 struct AsCapsule {
-  std::optional<Volume<double>> operator()(const BoundingSphere<double>& v) const {
-    return Capsule<double>{v.centre, v.centre, v.radius};
+  std::optional<Volume<T>> operator()(const BoundingSphere<T>& v) const {
+    return Capsule<T>{v.centre, v.centre, v.radius};
   }
-  std::optional<Volume<double>> operator()(const Capsule<double>& v) const { return v; }
-  std::optional<Volume<double>> operator()(const auto&) const { return std::nullopt; }
+  std::optional<Volume<T>> operator()(const Capsule<T>& v) const { return v; }
+  std::optional<Volume<T>> operator()(const auto&) const { return std::nullopt; }
 };
+template <class T>
 struct AsLozenge {
-  std::optional<Volume<double>> operator()(const BoundingSphere<double>& v) const {
-    return Lozenge<double>{v.centre, {}, {}, v.radius};
+  std::optional<Volume<T>> operator()(const BoundingSphere<T>& v) const {
+    return Lozenge<T>{v.centre, {}, {}, v.radius};
   }
-  std::optional<Volume<double>> operator()(const Capsule<double>& v) const {
-    return Lozenge<double>{v.a, v.b - v.a, {}, v.radius};
+  std::optional<Volume<T>> operator()(const Capsule<T>& v) const {
+    const Vec3<T> edge = v.b - v.a;
+    if constexpr (std::is_same_v<T, float>) {
+      if (to_double(edge) != to_double(v.b) - to_double(v.a)) return std::nullopt;
+    }
+    return Lozenge<T>{v.a, edge, {}, v.radius};
   }
-  std::optional<Volume<double>> operator()(const Lozenge<double>& v) const { return v; }
-  std::optional<Volume<double>> operator()(const auto&) const { return std::nullopt; }
+  std::optional<Volume<T>> operator()(const Lozenge<T>& v) const { return v; }
+  std::optional<Volume<T>> operator()(const auto&) const { return std::nullopt; }
 };
 
-std::optional<Volume<double>> as_kind(const Volume<double>& v, VolumeKind wanted) {
-  if (wanted == VolumeKind::capsule) return std::visit(AsCapsule{}, v);
-  if (wanted == VolumeKind::lozenge) return std::visit(AsLozenge{}, v);
+template <class T>
+std::optional<Volume<T>> as_kind(const Volume<T>& v, VolumeKind wanted) {
+  if (wanted == VolumeKind::capsule) return std::visit(AsCapsule<T>{}, v);
+  if (wanted == VolumeKind::lozenge) return std::visit(AsLozenge<T>{}, v);
   return kind_of(v) == wanted ? std::optional(v) : std::nullopt;
 }
 
@@ -354,28 +359,35 @@ std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const Fit
   const PointFrame& frame = p.cloud.frame;
   FittedVolume out;
   out.method = method;
+  out.fitted = frame.volume_out(measures_of(fit.volume).volume);
   bool held = false;
-  const auto keep_if_less = [&](const Volume<double>& fitted_volume) {
-    auto enclosed = enclose(fitted_volume, p.points, corners);
-    if (!enclosed) return;
-    const VolumeMeasures measures = measures_of(to_double(enclosed->volume));
-    if (held && !(enclosed->certified && measures.volume < out.measures.volume)) return;
+  const auto keep_if_less = [&](const Volume<float>& stored, bool certified) {
+    const VolumeMeasures measures = measures_of(to_double(stored));
+    if (held && !(certified && measures.volume < out.measures.volume)) return;
     held = true;
-    out.volume = std::move(enclosed->volume), out.certified = enclosed->certified, out.measures = measures;
+    out.volume = stored, out.certified = certified, out.measures = measures;
   };
-  keep_if_less(placed(fit.volume, frame));
+  const auto keep_enclosed = [&](const Volume<double>& v) {
+    if (const auto enclosed = enclose(v, p.points, corners))
+      keep_if_less(enclosed->volume, enclosed->certified);
+  };
+  keep_enclosed(placed(fit.volume, frame));
   // Rounding outward can turn the order, most where there is no thickness. Far larger ones need no rounding.
-  constexpr double k_worth = 2;
+  constexpr double k_worth = 2, k_unit = 0x1p-23;
+  const double reach = length(frame.origin) + 2 * frame.scale;
   for (const Volume<double>& cheaper : cheaper_fits(method, p, options)) {
     const Volume<double> v = placed(cheaper, frame);
-    const double volume = measures_of(v).volume;
-    if (held && volume > out.measures.volume * k_worth) continue;
-    keep_if_less(*as_kind(v, method.kind));
-    if (kind_of(v) == method.kind || (held && volume >= out.measures.volume)) continue;
-    // Far from the origin a capsule's ends are rounded, but not the edge of the lozenge that it is: one
-    // through the rounded ends is as small as what is stored of the capsule.
-    if (const auto stored = enclose(v, p.points, corners))
-      keep_if_less(*as_kind(to_double(stored->volume), method.kind));
+    const VolumeMeasures before = measures_of(v);
+    if (held && before.volume > k_worth * out.measures.volume + k_unit * reach * before.surface) continue;
+    keep_enclosed(*as_kind(v, method.kind));
+    if (kind_of(v) == method.kind) continue;
+    // As it is stored in its own type it has other numbers, which round otherwise.
+    const auto stored = enclose(v, p.points, corners);
+    if (!stored) continue;
+    if (const auto same = as_kind(stored->volume, method.kind))
+      keep_if_less(*same, certify(*same, p.points).holds());
+    else
+      keep_enclosed(*as_kind(to_double(stored->volume), method.kind));
   }
   if (!held) return std::nullopt;
   if (method.kind == VolumeKind::sphere && method.least) {
@@ -385,6 +397,7 @@ std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const Fit
   // A whisker below, so that the roundings of the bound itself cannot put it above the truth.
   const double bound = std::max(fit.lower_bound * (1 - 1e-12), method.on_hull ? bound_of_hull(p) : 0);
   out.lower_bound = std::min(frame.volume_out(bound), out.measures.volume);
+  out.fitted = std::clamp(out.fitted, out.lower_bound, out.measures.volume);
   out.seconds = fitted - start;
   out.certify_seconds = now() - fitted;
   return out;

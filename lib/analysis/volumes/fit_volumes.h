@@ -60,7 +60,10 @@ struct FittedVolume {
   FitMethod method;
   Volume<float> volume;
   VolumeMeasures measures;  // of the volume as stored
-  double lower_bound = 0;   // of the interior volume of any volume of this kind round the points; 0: unknown
+  // Interior volume of the fit in double, before it was rounded outward to float32; at most that of
+  // `measures`. What is above lower_bound is the fit's gap, what `measures` has more is float32's.
+  double fitted = 0;
+  double lower_bound = 0;  // of the interior volume of any volume of this kind round the points; 0: unknown
   bool certified = false;
   std::vector<Double3> support;  // of the minimal sphere: the points that hold it, in lexicographic order
   double seconds = 0;            // for the fit alone; the hull is shared
