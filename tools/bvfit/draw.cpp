@@ -3,6 +3,7 @@
 #include "lib/analysis/volumes/certify.h"
 #include "lib/analysis/volumes/volume_mesh.h"
 #include "lib/formats/export/export.h"
+#include "tools/bvfit/drawn_input.h"
 #include "tools/bvfit/hierarchy.h"
 #include "tools/picture/mesh_picture.h"
 
@@ -45,9 +46,12 @@ void add_volume(Mesh& mesh, const FittedVolume& v, const std::string& set) {
   mesh.materials.push_back(std::move(material));
   const auto base = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), drawn.positions.begin(), drawn.positions.end());
+  constexpr Triangle k_without{k_none, k_none, k_none};
   for (const Triangle& t : drawn.triangles) {
     mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
     mesh.part_of.push_back(part);
+    if (!mesh.texcoord_triangles.empty()) mesh.texcoord_triangles.push_back(k_without);
+    if (!mesh.normal_triangles.empty()) mesh.normal_triangles.push_back(k_without);
   }
 }
 
@@ -113,7 +117,10 @@ std::vector<const FittedVolume*> smallest_of_each(const SetFit& set) {
 }
 
 std::string legend_svg(const std::vector<const FittedVolume*>& volumes) {
-  std::string svg;
+  // Outlines run below it.
+  std::string svg = fmt::format(
+      R"(<rect x="6" y="6" width="140" height="{}" rx="4" stroke="none" fill="#f6f6f2" fill-opacity="0.85"/>)",
+      19 * volumes.size() + 6);
   double y = 22;
   for (auto v = volumes.rbegin(); v != volumes.rend(); ++v, y += 19) {
     svg += fmt::format(R"(<rect x="14" y="{}" width="14" height="10" rx="2" stroke="none" fill="{}"/>)",
@@ -133,13 +140,15 @@ DoubleBox drawn_box(std::span<const FittedVolume* const> volumes) {
   return box;
 }
 
-Result<void> add_pictures(const Mesh& mesh, const DoubleBox& box, MeshPicture what,
+Result<void> add_pictures(const DrawnInput& drawn, const DoubleBox& box, MeshPicture what,
                           std::vector<ReportPicture>& out) {
   const std::string title = what.title;
+  what.is_leaf = [&](std::uint32_t t) { return drawn.is_leaf[t]; };
+  what.masks = drawn.masks;
   for (const bool side : {false, true}) {
     what.title = title + (side ? ", from the side" : ", from the front");
     auto picture = draw_picture(
-        mesh, frame_box(box, side ? std::numbers::pi / 2 : 0, k_picture_width, k_picture_height), what);
+        drawn.mesh, frame_box(box, side ? std::numbers::pi / 2 : 0, k_picture_width, k_picture_height), what);
     if (!picture) return std::unexpected(picture.error());
     out.push_back(std::move(*picture));
   }
@@ -148,10 +157,10 @@ Result<void> add_pictures(const Mesh& mesh, const DoubleBox& box, MeshPicture wh
 
 }  // namespace
 
-Result<std::string> volumes_glb(const Input& input, std::span<const SetFit> sets, const std::string& name) {
-  Mesh mesh = input.mesh;
-  mesh.positions = input.points;
-  if (mesh.triangles.empty()) mesh.positions.clear();
+Result<std::string> volumes_glb(const Input& input, std::span<const SetFit> sets, const std::string& name,
+                                Context& context) {
+  Mesh mesh = mesh_of(input);
+  embed_textures(mesh, context);
   for (const SetFit& set : sets) {
     for (std::size_t i = 0; i < set.volumes.size(); ++i) {
       if (sets.size() == 1 || i == set.chosen) add_volume(mesh, set.volumes[i], set.name);
@@ -164,21 +173,22 @@ Result<std::string> volumes_glb(const Input& input, std::span<const SetFit> sets
   return std::move(files->front().bytes);
 }
 
-Result<std::vector<ReportPicture>> volume_pictures(const Input& input, std::span<const SetFit> sets) {
+Result<std::vector<ReportPicture>> volume_pictures(const Input& input, std::span<const SetFit> sets,
+                                                   Context& context) {
   std::vector<ReportPicture> out;
   if (input.mesh.triangles.empty() || sets.empty()) return out;
-  Mesh mesh = input.mesh;
-  mesh.positions = input.points;
-  const auto is_leaf = [&](std::uint32_t t) { return input.file && input.mesh.part_of[t] == 1; };
+  const DrawnInput drawn = drawn_input(input, context);
   const std::vector<const FittedVolume*> volumes = smallest_of_each(sets.front());
   const MeshPicture whole{"Volumes round " + sets.front().name,
-                          "The outline of the smallest volume of each type, with its interior volume.", 0.9,
-                          is_leaf, [&](const OrthographicView& view) {
+                          "The outline of the smallest volume of each type, with its interior volume.",
+                          0.9,
+                          {},
+                          [&](const OrthographicView& view) {
                             std::string svg = R"(<g stroke-width="1.6">)";
                             for (const FittedVolume* v : volumes) svg += outline_svg(*v, view, 0.03);
                             return svg + "</g>" + legend_svg(volumes);
                           }};
-  if (auto ok = add_pictures(mesh, drawn_box(volumes), whole, out); !ok) return std::unexpected(ok.error());
+  if (auto ok = add_pictures(drawn, drawn_box(volumes), whole, out); !ok) return std::unexpected(ok.error());
   std::vector<const FittedVolume*> chosen;
   for (const SetFit& set : sets) {
     if (is_fine_part(set.part, set.index, set.motion)) chosen.push_back(&set.volumes[set.chosen]);
@@ -186,15 +196,18 @@ Result<std::vector<ReportPicture>> volume_pictures(const Input& input, std::span
   if (chosen.size() < 2) return out;
   // Thousands of outlines must not paint the mesh over, nor it them.
   const bool many = chosen.size() > 100;
-  const MeshPicture parts{"Volumes of the parts", "The outline of what was chosen for each part.",
-                          many ? 0.4 : 0.9, is_leaf, [&](const OrthographicView& view) {
+  const MeshPicture parts{"Volumes of the parts",
+                          "The outline of what was chosen for each part.",
+                          many ? 0.4 : 0.9,
+                          {},
+                          [&](const OrthographicView& view) {
                             std::string svg = many ? R"(<g stroke-width="0.8" stroke-opacity="0.6">)"
                                                    : R"(<g stroke-width="0.9">)";
                             for (const FittedVolume* v : chosen)
                               svg += outline_svg(*v, view, many ? 0 : 0.06, many ? 3 : 24);
                             return svg + "</g>";
                           }};
-  if (auto ok = add_pictures(mesh, drawn_box(chosen), parts, out); !ok) return std::unexpected(ok.error());
+  if (auto ok = add_pictures(drawn, drawn_box(chosen), parts, out); !ok) return std::unexpected(ok.error());
   return out;
 }
 

@@ -67,6 +67,23 @@ void add_groups_of(const Import& import, Input& input) {
   }
 }
 
+// Puts the normals or texture coordinates of a mesh of `count` triangles behind those of `before`; corners
+// without any are k_none.
+template <class T>
+void add_corners(const std::vector<T>& values, const std::vector<Triangle>& corners, std::size_t count,
+                 std::vector<T>& all, std::vector<Triangle>& all_corners, std::size_t before) {
+  if (corners.empty() && all_corners.empty()) return;
+  constexpr Triangle k_without{k_none, k_none, k_none};
+  const auto base = static_cast<std::uint32_t>(all.size());
+  all.insert(all.end(), values.begin(), values.end());
+  all_corners.resize(before, k_without);
+  for (Triangle t : corners) {
+    for (std::uint32_t& i : t) i = i == k_none ? k_none : i + base;
+    all_corners.push_back(t);
+  }
+  all_corners.resize(before + count, k_without);
+}
+
 Result<void> add_mesh(const fs::path& path, Input& input, Context& context) {
   auto import = import_mesh(path);
   if (!import) return std::unexpected(import.error());
@@ -81,10 +98,19 @@ Result<void> add_mesh(const fs::path& path, Input& input, Context& context) {
   }
   const auto parts = static_cast<std::uint32_t>(input.mesh.parts.size());
   const auto materials = static_cast<std::uint32_t>(input.mesh.materials.size());
+  const auto textures = static_cast<std::uint32_t>(input.mesh.textures.size());
+  for (Texture t : mesh.textures) {
+    if (!t.uri.empty()) t.uri = (path.parent_path() / t.uri).string();
+    input.mesh.textures.push_back(std::move(t));
+  }
   for (Material m : mesh.materials) {
-    m.texture = k_none;
+    if (m.texture != k_none) m.texture += textures;
     input.mesh.materials.push_back(std::move(m));
   }
+  add_corners(mesh.texcoords, mesh.texcoord_triangles, mesh.triangles.size(), input.mesh.texcoords,
+              input.mesh.texcoord_triangles, input.mesh.triangles.size());
+  add_corners(mesh.normals, mesh.normal_triangles, mesh.triangles.size(), input.mesh.normals,
+              input.mesh.normal_triangles, input.mesh.triangles.size());
   for (Part p : mesh.parts) {
     if (p.material != k_none) p.material += materials;
     input.mesh.parts.push_back(std::move(p));
@@ -114,6 +140,7 @@ Result<void> add_tree(const fs::path& path, Input& input, Context& context) {
   input.tree = std::move(*tree);
   input.cells = std::move(*cells);
   input.file = std::move(*file);
+  input.folder = path.parent_path();
   const TreeParts parts(input.tree);
   input.points = parts.points();
   input.trunk_points = parts.trunk_points();

@@ -20,11 +20,14 @@ namespace copse::bvfit {
 struct Input {
   std::string name;  // for messages and the JSON: the first file, "(+2 more)" where there are several
   std::vector<Double3> points;  // every vertex; of a mesh as float32, relative to the origin of a tree
-  Mesh mesh;                    // its triangles over `points`; none for points alone
+  // Its triangles over `points`; none for points alone. Textures that are files have names that can be
+  // opened. Of a tree the triangles alone.
+  Mesh mesh;
   // Of a scene of meshes: what its files group, each file at the top, and in which group each triangle is.
   std::vector<SourceGroup> groups;
   std::vector<std::uint32_t> group_of;
   std::optional<TreeFile> file;  // of a tree
+  std::filesystem::path folder;  // of its file: where its textures are
   Tree tree;
   FoliageCells cells;              // that the tree came with
   std::uint32_t trunk_points = 0;  // of a tree: the trunk's vertices come first

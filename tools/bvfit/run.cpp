@@ -153,13 +153,13 @@ Result<void> write_output(const Work& work, const Options& options, Context& con
 Result<void> draw_stage(const Work& work, const Options& options, Context& context) {
   if (!options.export_glb.empty()) {
     Stage stage = context.stage("export");
-    const auto glb = volumes_glb(work.input, work.sets, options.export_glb.filename().string());
+    const auto glb = volumes_glb(work.input, work.sets, options.export_glb.filename().string(), context);
     if (!glb) return std::unexpected(glb.error());
     if (auto ok = context.write(options.export_glb, *glb); !ok) return ok;
   }
   if (context.options().html.empty()) return {};
   Stage stage = context.stage("draw");
-  auto pictures = volume_pictures(work.input, work.sets);
+  auto pictures = volume_pictures(work.input, work.sets, context);
   if (!pictures) return std::unexpected(pictures.error());
   context.report().pictures = std::move(*pictures);
   return {};

@@ -1,9 +1,11 @@
 #include "tools/picture/mesh_picture.h"
 
+#include "lib/analysis/measure/alpha_raster.h"
 #include "lib/formats/import/image.h"
 #include "tools/picture/base64.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,9 +31,38 @@ Shade shade(const Mesh& mesh, std::uint32_t t, bool leaf, const OrthographicView
   return {base.r * s, base.g * s, base.b * s};
 }
 
+// The mask under a triangle, and where on it its corners are; none where nothing is cut out.
+const AlphaMask* mask_of(const Mesh& mesh, std::uint32_t t, const std::vector<AlphaMask>& masks) {
+  const std::uint32_t m = mesh.parts[mesh.part_of[t]].material;
+  if (m >= masks.size() || masks[m].opaque.empty() || mesh.texcoord_triangles.empty()) return nullptr;
+  const Triangle& uv = mesh.texcoord_triangles[t];
+  return uv[0] == k_none || uv[1] == k_none || uv[2] == k_none ? nullptr : &masks[m];
+}
+
+Raster see(const Mesh& mesh, const std::vector<AlphaMask>& masks, const OrthographicView& view) {
+  if (masks.empty()) return rasterize(mesh.positions, mesh.triangles, view);
+  Raster out{view.width, view.height, {}, {}};
+  const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
+  out.triangle.assign(pixels, k_none);
+  out.depth.assign(pixels, -std::numeric_limits<float>::infinity());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    ScreenTriangle triangle;
+    triangle.mask = mask_of(mesh, t, masks);
+    for (std::size_t c = 0; c < 3; ++c) {
+      triangle.corners[c].at = view.project(mesh.positions[mesh.triangles[t][c]]);
+      if (triangle.mask != nullptr) triangle.corners[c].uv = mesh.texcoords[mesh.texcoord_triangles[t][c]];
+    }
+    for_each_sample(
+        triangle, view.width, view.height,
+        [&](std::size_t pixel, float depth) { return depth > out.depth[pixel]; },
+        [&](std::size_t pixel, float depth) { out.depth[pixel] = depth, out.triangle[pixel] = t; });
+  }
+  return out;
+}
+
 Image draw_mesh(const Mesh& mesh, const MeshPicture& what, OrthographicView view) {
   view.width *= k_supersampling, view.height *= k_supersampling, view.pixel /= k_supersampling;
-  const Raster raster = rasterize(mesh.positions, mesh.triangles, view);
+  const Raster raster = see(mesh, what.masks, view);
   Image image{k_width, k_height, {}, true};
   image.rgba.resize(std::size_t{4} * k_width * k_height);
   for (int y = 0; y < k_height; ++y) {

@@ -1,6 +1,7 @@
 // Pictures for pages: a mesh seen along a direction, softly lit, with lines drawn over it.
 #pragma once
 
+#include "lib/analysis/measure/drawn_mesh.h"
 #include "lib/analysis/measure/raster.h"
 #include "lib/formats/mesh.h"
 #include "lib/formats/report.h"
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace copse {
 
@@ -21,6 +23,8 @@ struct MeshPicture {
   std::function<bool(std::uint32_t triangle)> is_leaf;
   // SVG drawn over the mesh, in the view's pixels.
   std::function<std::string(const OrthographicView&)> overlay;
+  // What the alpha of each material's texture lets through; empty: everything.
+  std::vector<AlphaMask> masks = {};
 };
 
 // `view` is of k_picture_width by k_picture_height.
