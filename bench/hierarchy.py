@@ -5,14 +5,17 @@ the meshes with truth at ../shared/trees where they are there (those with the sc
 ./run bench hierarchy; prints a row a mesh and ends with the number of rows that are not exact.
 
   hierarchy.py [--species NAME,...] [--breaks NAME,...] [--seeds N,...] [--triangles N] [--format obj|glb|ply]
-               [--no-shared] [--quiet] [--check]
+               [--draws N] [--no-shared] [--quiet] [--check]
 
---seeds: specimens (0, treegrow's own); --triangles: of the whole mesh (what the species has by itself); --quiet: only the rows that
-are not exact; --check: status 1 when there are any.
+--seeds: specimens (0, treegrow's own); --triangles: of the whole mesh (what the species has by itself); --draws: instead of all that,
+so many specimens of each seed with random species, k from 3 to 24, size from millimetres to kilometres, triangles, and up to three
+breaks; --quiet: only the rows that are not exact; --check: status 1 when there are any.
 """
 import argparse
 import json
 import pathlib
+import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -23,6 +26,7 @@ from exactness import exactness  # noqa: E402
 
 SHARED = ROOT.parent / "shared"
 TOO_FEW_TRIANGLES = 4  # treegrow's exit status: a limit that was asked for is not met
+USAGE = 2  # breaks that exclude one another
 
 
 def run(*command):
@@ -39,7 +43,7 @@ def recover(mesh, folder, *options):
 
 def grown(species, kind, options, folder):
     mesh, truth = folder / f"tree.{kind}", folder / "truth.json"
-    grow = subprocess.run(["treegrow", species, "-o", str(mesh), "--truth", str(truth), "-q", *options], capture_output=True, text=True)
+    grow = subprocess.run(["treegrow", *([species] if species else []), "-o", str(mesh), "--truth", str(truth), "-q", *options], capture_output=True, text=True)
     if grow.returncode == TOO_FEW_TRIANGLES:
         return None
     grow.check_returncode()
@@ -86,6 +90,43 @@ def grown_rows(folder, options):
     return bad
 
 
+def draw(dice, species, breaks, folder):
+    """The options of a random specimen, whose parameters are written to `folder`, and what to call it."""
+    kind, k = dice.choice(species), dice.randint(3, 24)
+    params = run("treegrow", "--print", kind)
+    height = float(re.search(r"^height = (\S+)", params, re.M)[1]) * 10 ** dice.uniform(-2.5, 2.5)
+    if kind != "grass":
+        params = re.sub(r"^(ring_size|sides) = \d+", lambda m: f"{m[1]} = {k}", params, flags=re.M)
+    (folder / "species.toml").write_text(params)
+    some = ",".join(dice.sample(breaks, dice.randint(0, 3))) or "none"
+    triangles = round(10 ** dice.uniform(3.4, 4.6))
+    shape = ["--break", some, "--height", f"{height:.4g}", "--triangles", str(triangles), "--seed", str(dice.randrange(1000))]
+    return ["--params", str(folder / "species.toml"), "--texture-size", "64", *shape], " ".join([kind, f"k {k}", *shape[1::2]])
+
+
+def drawn_rows(folder, options):
+    species = options.species or [line.split()[0] for line in run("treegrow", "--list").splitlines() if line.strip()]
+    breaks = options.breaks or [line.split()[0] for line in run("treegrow", "--list-breaks").splitlines() if line.strip()]
+    bad, scored = 0, 0
+    for seed in options.seeds:
+        dice = random.Random(int(seed))
+        for _ in range(options.draws):
+            how, name = draw(dice, species, breaks, folder)
+            try:
+                e = grown(None, options.format, how, folder)
+            except subprocess.CalledProcessError as error:
+                if error.cmd[0] == "treegrow" and error.returncode == USAGE:
+                    continue  # breaks that exclude one another
+                print(f"{name:44s} {' '.join(error.cmd)}: status {error.returncode} {error.stderr}", flush=True)
+                bad += 1
+                continue
+            scored += e is not None
+            if e is not None:
+                bad += row(name, e, options.quiet)
+    print(f"{scored} grown and scored; the others ask for breaks that exclude one another, or for too few triangles")
+    return bad
+
+
 def shared_rows(folder):
     scorer, trees = SHARED / "tools/evaluate_hierarchy.py", SHARED / "trees"
     if not scorer.exists():
@@ -120,6 +161,7 @@ def main():
     parser.add_argument("--seeds", type=names, default=["0"])
     parser.add_argument("--triangles", type=int)
     parser.add_argument("--format", choices=["obj", "glb", "ply"], default="obj")
+    parser.add_argument("--draws", type=int)
     parser.add_argument("--no-shared", action="store_true")
     parser.add_argument("--quiet", action="store_true")
     parser.add_argument("--check", action="store_true")
@@ -127,7 +169,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         bad = 0 if options.no_shared else shared_rows(folder)
-        bad += grown_rows(folder, options)
+        bad += drawn_rows(folder, options) if options.draws else grown_rows(folder, options)
     print(f"\n{bad} not exact")
     sys.exit(options.check and bad > 0)
 

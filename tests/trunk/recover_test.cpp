@@ -207,6 +207,26 @@ TEST(Recover, SharesTheRadiusWhereTubesAreLaidEndToEnd) {
   EXPECT_EQ(h.first_vertex.back(), 5 * 12 + 4 * 6 + 3 * 6u);
 }
 
+// What was computed twice is apart by a share of the whole tree, however thin the twig. Limbs that begin
+// beside one another at such a distance stay two.
+TEST(Recover, JoinsThinTubesThatGoOnFromOneAnotherAlmostInOnePlace) {
+  TubeMaker maker;
+  maker.add(tube({0, 0, 0}, {0, 10, 0}, 5, 0.3, 0.2, 8));
+  maker.add(tube({0, 5, 0}, {1, 5, 0}, 4, 0.002, 0.0019, 6));
+  TubeShape next =
+      tube({1, 5.00001, 0}, {2, 5, 0}, 4, 0.0019, 0.0018, 6);  // by half a per cent of its radius
+  next.turn = 0.5;
+  maker.add(next);
+  EXPECT_EQ(recover(maker.mesh).radii.size(), 5u + 4u + 3u);
+  TubeMaker beside;
+  beside.add(tube({0, 0, 0}, {0, 10, 0}, 5, 0.3, 0.2, 8));
+  beside.add(tube({0, 5, 0}, {1, 5, 0}, 4, 0.002, 0.0019, 6));
+  next = tube({0, 5.00001, 0}, {1, 5.1, 0}, 4, 0.002, 0.0018, 6);
+  next.turn = 0.5;
+  beside.add(next);
+  EXPECT_EQ(recover(beside.mesh).radii.size(), 5u + 4u + 4u);
+}
+
 TEST(Recover, LidsBelongToTheSegmentThatTheyClose) {
   TubeMaker maker;
   TubeShape shape = tube({0, 0, 0}, {0, 4, 0}, 3, 0.4, 0.3);

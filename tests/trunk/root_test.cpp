@@ -107,6 +107,24 @@ TEST(Root, ALogThatLiesBeginsAtItsThickEnd) {
   EXPECT_NEAR(recover(maker).radii[0].centre.x, 0, 1e-12);
 }
 
+// A rod that is much thinner than the flared base of what hangs from its middle.
+TEST(Root, AFlaredTwigIsHeldByTheMiddleOfAThinnerRod) {
+  TubeMaker maker;
+  maker.add(trunk_of({0, -0.1, 0}, {0, 6, 0}, 0.3, 0.1));
+  maker.add(trunk_of({0, 5, 0}, {4, 5, 0}, 0.04, 0.04));
+  TubeShape twig = trunk_of({2, 5, 0}, {2, 3, 0.2}, 0.03, 0.03);
+  twig.radius.front() = 0.055;
+  twig.last = TubeEnd::point;
+  maker.add(twig, 1);
+  const Hierarchy h = recover(maker);
+  EXPECT_EQ(roots(h), 1);
+  const auto base = std::ranges::find_if(h.radii, [](const RadiusNode& r) {
+    return r.diameter > 0.105 && r.diameter < 0.115 && r.centre.x > 1;
+  });
+  ASSERT_NE(base, h.radii.end());
+  EXPECT_TRUE(base->joint);
+}
+
 TEST(Root, ABranchThatFloatsALittleBeginsAtItsThickEndHoweverItHangs) {
   TubeMaker maker;
   maker.add(trunk_of({0, -0.1, 0}, {0, 6, 0}, 0.3, 0.1));

@@ -158,7 +158,13 @@ TEST(PoorTrees, AreRecoveredExactly) {
         Case{"oak", "extruded,end-to-end-turned", 3, 6000},
         Case{"willow", "extruded,capped-ngon,shuffled", 57, 9000},
         Case{"bush", "welded-forks,capped-ngon", 41, 9000},
-        Case{"pine", "welded-forks,capped-fan,shuffled", 57, 9000}}) {
+        Case{"pine", "welded-forks,capped-fan,shuffled", 57, 9000},
+        // a limb that grows out of a cube, and is thicker at its end than the limb that it grows from
+        Case{"spruce", "extruded,end-to-end-turned", 7, 6000},
+        // tubes that are apart by more than a thousandth of a thin radius, one of which bears a branch there
+        Case{"spruce", "loose-seams,end-to-end", 7, 6000},
+        // many forks at one height
+        Case{"palm", "welded-forks,shuffled", 0, 20000}}) {
     const Exactness e = recover_grown(c.species, c.breaks, c.seed, c.triangles);
     EXPECT_TRUE(e.exact()) << c.species << ": " << e.found << " of " << e.rings << " rings, "
                            << e.parents_right << " parents, " << e.extra << " extra: " << e.first_fault;

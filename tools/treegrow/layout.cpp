@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 namespace copse::grow {
 namespace {
@@ -42,8 +44,8 @@ class LayoutMaker {
   void sort_children();
   void lay_stem(std::size_t i);
   std::vector<double> uniform(const Stem& stem) const;
-  void force(std::vector<double>& rings, const Stem& stem, std::span<const std::uint32_t> children,
-             bool exclusive);
+  void force(std::vector<double>& rings, const Stem& stem, std::span<const std::uint32_t> children);
+  void open_saddles(std::vector<double>& rings, const Stem& stem, std::span<const std::uint32_t> children);
   void open_patches(std::vector<double>& rings, const Stem& stem, std::span<const std::uint32_t> children);
   std::uint64_t count_stem(std::size_t i) const;
   void share_leaves(std::int64_t wanted);
@@ -127,29 +129,57 @@ std::vector<double> LayoutMaker::uniform(const Stem& stem) const {
   return rings;
 }
 
-// Gives each child a ring to hang on; with `exclusive` one of its own that is not an end.
-void LayoutMaker::force(std::vector<double>& rings, const Stem& stem, std::span<const std::uint32_t> children,
-                        bool exclusive) {
+// Gives each child a ring to hang on.
+void LayoutMaker::force(std::vector<double>& rings, const Stem& stem,
+                        std::span<const std::uint32_t> children) {
   const std::size_t lowest = stem.kind == StemKind::root ? 1 : 0;  // nothing grows under the ground
   const double low = rings[lowest], spacing = rings[lowest + 1] - low;
-  std::vector<bool> taken(rings.size());
   for (const std::uint32_t child : children) {
     double at = skeleton_.stems[child].parent_at;
     at = std::clamp(at, low + 0.02 * (1 - low), 1 - 0.02 * (1 - low));
     auto above = static_cast<std::size_t>(std::lower_bound(rings.begin(), rings.end(), at) - rings.begin());
     const std::size_t nearest = at - rings[above - 1] < rings[above] - at ? above - 1 : above;
-    const bool fits = !exclusive || (!taken[nearest] && nearest > lowest && nearest + 1 < rings.size());
-    if (std::abs(rings[nearest] - at) < k_snap * spacing && fits) {
-      taken[nearest] = true;
+    if (std::abs(rings[nearest] - at) < k_snap * spacing) {
       join_at_[child] = rings[nearest];
       continue;
     }
     const double gap = rings[above] - rings[above - 1];
     at = std::clamp(at, rings[above - 1] + 0.3 * gap, rings[above] - 0.3 * gap);
     rings.insert(rings.begin() + static_cast<std::ptrdiff_t>(above), at);
-    taken.insert(taken.begin() + static_cast<std::ptrdiff_t>(above), true);
     join_at_[child] = at;
   }
+}
+
+// A ring of its own for each child that is not an end. Where children crowd they move up, and down again at
+// the tip, so that no ring comes nearer to the next than a file can tell.
+void LayoutMaker::open_saddles(std::vector<double>& rings, const Stem& stem,
+                               std::span<const std::uint32_t> children) {
+  if (children.empty()) return;
+  const std::size_t lowest = stem.kind == StemKind::root ? 1 : 0;
+  const double low = rings[lowest], margin = 0.02 * (1 - low);
+  const double room = (1 - low - 2 * margin) / static_cast<double>(children.size());
+  const double apart = std::min(k_snap * (rings[lowest + 1] - low), 0.6 * room);
+  std::vector<double> at;
+  double end = low + margin;
+  for (const std::uint32_t child : children) {
+    at.push_back(std::max(end, skeleton_.stems[child].parent_at));
+    end = at.back() + apart;
+  }
+  end = 1 - margin;
+  for (std::size_t c = children.size(); c-- > 0;) {
+    at[c] = std::min(at[c], end);
+    end = at[c] - apart;
+    join_at_[children[c]] = at[c];
+  }
+  const auto is_inner = [&](double r) { return r > low && r < rings.back(); };
+  const auto gives_way = [&](double r) {
+    return is_inner(r) && std::ranges::any_of(at, [&](double c) { return std::abs(c - r) < apart / 2; });
+  };
+  std::vector<double> result;
+  std::ranges::copy_if(rings, std::back_inserter(result), std::not_fn(gives_way));
+  result.insert(result.end(), at.begin(), at.end());
+  std::ranges::sort(result);
+  rings = std::move(result);
 }
 
 // Two rings of their own for each child, as far apart as the child is thick, with nothing in between. Where
@@ -199,9 +229,11 @@ void LayoutMaker::lay_stem(std::size_t i) {
     std::vector<std::uint32_t> forks;  // only an arm of a fork needs a ring where it begins
     std::ranges::copy_if(children, std::back_inserter(forks),
                          [&](auto c) { return skeleton_.stems[c].kind == StemKind::fork; });
-    force(rings, stem, forks, false);
+    force(rings, stem, forks);
+  } else if (breaks_.has(Break::welded_forks)) {
+    open_saddles(rings, stem, children);
   } else {
-    force(rings, stem, children, breaks_.has(Break::welded_forks));
+    force(rings, stem, children);
   }
   own.first = static_cast<std::uint32_t>(layout_.rings.size());
   own.count = static_cast<std::uint32_t>(rings.size());

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <tuple>
 
 namespace copse {
 
@@ -22,6 +23,7 @@ class RingWalk {
         radius_of_(g.nodes(), k_none),
         branch_of_(g.nodes(), k_none),
         is_seated_(g.nodes(), 0),
+        holder_(g.nodes(), k_none),
         owned_(s.positions.size(), 0),
         is_lid_(s.triangles.size(), 0),
         joint_of_(g.sites, k_none),
@@ -31,6 +33,7 @@ class RingWalk {
 
   Hierarchy walk() {
     out_.segment_of.assign(s_.triangles.size(), k_none);
+    for (std::uint32_t n = 0; n < g_.nodes(); ++n) holder_[n] = find_holder(n);
     const std::uint32_t root = find_root();
     if (root == k_none) return std::move(out_);
     place(root, k_none, branches_++);
@@ -52,6 +55,37 @@ class RingWalk {
   // Whether a vertex closes a limb's end rather than drawing it out to a point.
   bool is_cap(std::uint32_t point, std::uint32_t node) const {
     return distance(g_.circle[point].centre, g_.circle[node].centre) < k_cap_height * g_.circle[node].radius;
+  }
+
+  // The thicker of two rings with a band between them that hold all of this ring, and an edge of it or more
+  // each: it is the hole in that band that a limb grows out of, and no ring of its own from whichever side
+  // the walk comes. k_none for others.
+  std::uint32_t find_holder(std::uint32_t node) const {
+    const std::uint32_t site = g_.site_of[node];
+    if (site == k_none || is_point(node)) return k_none;
+    std::vector<std::uint32_t> at;
+    for (const std::uint32_t v : ring(node)) {
+      for (const std::uint32_t m : g_.nodes_of[v]) {
+        if (m != node && !is_point(m)) at.push_back(m);
+      }
+    }
+    if (at.size() < ring(node).size()) return k_none;
+    std::ranges::sort(at);
+    const auto held = [&](std::uint32_t m) {
+      const auto range = std::ranges::equal_range(at, m);
+      return static_cast<std::size_t>(std::ranges::distance(range));
+    };
+    for (auto i = at.begin(); i != at.end(); i = std::upper_bound(i, at.end(), *i)) {
+      const std::size_t of_a = held(*i);
+      if (of_a < 2) continue;
+      for (const std::uint32_t band : g_.bands_of[*i]) {
+        const std::uint32_t b = g_.across(*i, band);
+        const std::size_t of_b = held(b);
+        if (of_b < 2 || of_a + of_b != ring(node).size()) continue;
+        return g_.circle[b].radius > g_.circle[*i].radius ? b : *i;
+      }
+    }
+    return k_none;
   }
 
   // How well a ring may be the base of the whole: 0 at an end that is open or capped, or lies with others at
@@ -82,7 +116,7 @@ class RingWalk {
     std::uint32_t best = k_none;
     Rank best_rank{};
     for (std::uint32_t n = 0; n < g_.nodes(); ++n) {
-      if (is_point(n)) continue;
+      if (is_point(n) || holder_[n] != k_none) continue;
       const RingCircle& c = g_.circle[n];
       const double score =
           c.radius / widest - k_lowness * (c.centre.y - box.min.y) / height - root_penalty(n);
@@ -137,10 +171,14 @@ class RingWalk {
           seat(m, radius_of_[n], branch_of_[n]);
           continue;
         }
-        place(m, radius_of_[n], carries_on ? branch_of_[n] : branches_++);
-        carries_on = false;
-        explain(b, radius_of_[m]);
-        todo.push_back(m);
+        const std::uint32_t held_by = holder_[m], on = held_by == k_none ? m : held_by;
+        if (radius_of_[on] == k_none) {
+          place(on, radius_of_[n], carries_on ? branch_of_[n] : branches_++);
+          carries_on = false;
+          explain(b, radius_of_[on]);
+          todo.push_back(on);
+        }
+        if (on != m) seat(m, radius_of_[on], branch_of_[on]);
       }
     }
   }
@@ -185,10 +223,11 @@ class RingWalk {
     return normalized(g_.circle[n].centre - g_.circle[end].centre, {});
   }
 
-  // The ends of a site that are still to be placed: those that lie least on placed rings first (what goes on,
-  // before what sits on it), then the thickest.
+  // The ends of a site that are still to be placed: holes last, those that lie least on placed rings first
+  // (what goes on, before what sits on it), then the thickest.
   std::vector<std::uint32_t> ends_to_place(std::uint32_t site) const {
     struct End {
+      bool is_hole;
       std::size_t held;
       double radius;
       std::uint32_t node;
@@ -198,10 +237,10 @@ class RingWalk {
       if (radius_of_[n] != k_none) continue;
       std::size_t held = 0;
       for (const std::uint32_t v : ring(n)) held += owned_[v];
-      ends.push_back({held, g_.circle[n].radius, n});
+      ends.push_back({holder_[n] != k_none, held, g_.circle[n].radius, n});
     }
     std::ranges::stable_sort(ends, [](const End& a, const End& b) {
-      return a.held != b.held ? a.held < b.held : a.radius > b.radius;
+      return std::tuple(a.is_hole, a.held, -a.radius) < std::tuple(b.is_hole, b.held, -b.radius);
     });
     std::vector<std::uint32_t> nodes;
     for (const End& e : ends) nodes.push_back(e.node);
@@ -303,7 +342,9 @@ class RingWalk {
   const RingGraph& g_;
   Hierarchy out_;
   std::vector<std::uint32_t> radius_of_, branch_of_;  // one a node; of its seat where it is no radius itself
-  std::vector<std::uint8_t> is_seated_, owned_;       // one a node, one a vertex
+  std::vector<std::uint8_t> is_seated_;               // one a node
+  std::vector<std::uint32_t> holder_;                 // one a node: what a hole lies on; k_none for no hole
+  std::vector<std::uint8_t> owned_;                   // one a vertex
   std::vector<std::uint8_t> is_lid_;                  // one a triangle
   std::vector<std::uint32_t> joint_of_;               // one a site: the radius between its limbs
   std::vector<std::uint8_t> entered_;                 // one a site

@@ -24,12 +24,13 @@ struct Profile {
 };
 
 // Adds the steps from an end up to the root, which lie on the way from the first end or, backwards, to the
-// second.
-void add_steps(const Limbs& limbs, Profile& profile, int end) {
+// second. What changes by less than `noise` metres has not changed.
+void add_steps(const Limbs& limbs, double noise, Profile& profile, int end) {
   std::uint32_t r = profile.end[end];
   for (std::uint32_t p = limbs.parent_of(r); p != k_none; r = p, p = limbs.parent_of(r)) {
     const double change = limbs.diameter[p] - limbs.diameter[r];
-    if (std::abs(change) <= k_join_tolerance * std::max(limbs.diameter[p], limbs.diameter[r])) continue;
+    const double thicker = std::max(limbs.diameter[p], limbs.diameter[r]);
+    if (std::abs(change) <= std::max(noise, k_join_tolerance * thicker)) continue;
     ++profile.steps;
     profile.growth += (change > 0) == (end == 0) ? 1 : -1;
   }
@@ -69,6 +70,9 @@ std::vector<std::uint32_t> end_rings(const Limbs& limbs) {
 
 std::vector<std::uint8_t> possible_bases(const Limbs& limbs, std::span<const std::uint32_t> ends) {
   std::vector<Profile> profiles(limbs.size);
+  DoubleBox box;
+  for (const Double3& c : limbs.centre) box.grow(c);
+  const double noise = 2 * k_rounding * length(box.extent());
   const std::vector<double> thickness = end_thickness(limbs, ends);
   for (const std::uint32_t e : ends) {
     Profile& profile = profiles[limbs.limb[e]];
@@ -79,8 +83,8 @@ std::vector<std::uint8_t> possible_bases(const Limbs& limbs, std::span<const std
   std::vector<std::uint8_t> possible(limbs.rings(), 0);
   for (Profile& profile : profiles) {
     if (profile.ends != 2) continue;
-    add_steps(limbs, profile, 0);
-    add_steps(limbs, profile, 1);
+    add_steps(limbs, noise, profile, 0);
+    add_steps(limbs, noise, profile, 1);
     if (profile.steps == 0 || 2 * std::abs(profile.growth) < profile.steps) continue;
     possible[profile.end[profile.growth > 0 ? 1 : 0]] = 1;
     profile.ends = 0;  // decided

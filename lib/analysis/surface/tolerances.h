@@ -91,6 +91,8 @@ inline constexpr double k_float_gap = 0.1;
 // Ratio of a branch's radius to its parent's that is still common: generators let branches start up to 1.2
 // times as thick as the place that they grow from.
 inline constexpr double k_thicker_child = 1.25;
+// The same ratio up to which a limb may be held by the middle of another one: a flared base on a thin rod.
+inline constexpr double k_thinner_holder = 2;
 // Limbs with one possible parent that it takes to learn a file's habit; the spread, in radii of the parent,
 // that is assumed without, and the least that is believed (rounding of a thin twig's centre).
 inline constexpr std::size_t k_habit_limbs = 5;

@@ -38,16 +38,46 @@ SegmentTree make_tree(const Limbs& limbs, std::span<const std::array<std::uint32
   return SegmentTree(std::move(segments));
 }
 
-bool coincide(const Limbs& limbs, std::uint32_t a, std::uint32_t b) {
-  const double diameter = std::max(limbs.diameter[a], limbs.diameter[b]);
-  return diameter > 0 && distance(limbs.centre[a], limbs.centre[b]) <= k_join_tolerance * diameter / 2 &&
-         std::abs(limbs.diameter[a] - limbs.diameter[b]) <= k_join_tolerance * diameter;
+// How far apart rings of a radius may be that go on from one another, where the rings of all limbs take up
+// `size`: what was computed twice, or rounded, is apart by a share of the whole, however thin the twig, but
+// never by much of an edge.
+double seam_reach(double radius, double size) {
+  return std::max(k_join_tolerance * radius, std::min(k_weld_of_edge * radius, k_weld_of_diagonal * size));
+}
+
+bool coincide(const Limbs& limbs, std::uint32_t a, std::uint32_t b, double reach) {
+  return distance(limbs.centre[a], limbs.centre[b]) <= reach &&
+         std::abs(limbs.diameter[a] - limbs.diameter[b]) <= 2 * reach;
+}
+
+// The ring next to an end.
+std::vector<std::uint32_t> next_rings(const Limbs& limbs) {
+  std::vector<std::uint32_t> next(limbs.rings(), k_none);
+  for (std::uint32_t r = 0; r < limbs.rings(); ++r) {
+    if (limbs.parent[r] == k_none) continue;
+    next[r] = limbs.parent[r];
+    next[limbs.parent[r]] = r;
+  }
+  return next;
 }
 
 // Whether two rings lie in one plane, as far as their planes are known.
 bool lie_alike(const Limbs& limbs, std::uint32_t a, std::uint32_t b) {
   const double cosine = std::abs(dot(limbs.normal[a], limbs.normal[b]));
   return cosine >= k_one_plane || length(limbs.normal[a]) == 0 || length(limbs.normal[b]) == 0;
+}
+
+// Whether a tube that ends in ring `a` may go on from ring `b`, as tubes laid end to end do: where that is an
+// end, too, they lead away from their plane to its two sides (limbs that begin beside one another both lead
+// to one); where a branch begins there, the rings are of one make.
+bool go_on(const Limbs& limbs, std::span<const std::uint32_t> next, std::uint32_t a, std::uint32_t b,
+           bool is_end) {
+  if (!lie_alike(limbs, a, b) || length(limbs.normal[a]) == 0) return false;
+  if (!is_end) return limbs.ring(a).size() == limbs.ring(b).size();
+  if (next[a] == k_none || next[b] == k_none) return false;
+  const double on_a = dot(limbs.normal[a], limbs.centre[next[a]] - limbs.centre[a]);
+  const double on_b = dot(limbs.normal[a], limbs.centre[next[b]] - limbs.centre[b]);
+  return on_a * on_b < 0;
 }
 
 // The ends at which their limbs clearly begin: no other end may be the base.
@@ -106,6 +136,10 @@ LimbSegments::LimbSegments(const Limbs& limbs) : rings(segment_rings(limbs)), tr
 
 void join(Limbs& limbs, LimbSegments& segments) {
   Joints joints(limbs);
+  DoubleBox box;
+  for (const Double3& c : limbs.centre) box.grow(c);
+  const double size = length(box.extent());
+  const std::vector<std::uint32_t> next = next_rings(limbs);
   std::vector<Nearness> found;
   const std::vector<std::uint32_t> ends = end_rings(limbs);
   const std::vector<std::uint8_t> is_start = clear_starts(limbs, ends);
@@ -114,15 +148,17 @@ void join(Limbs& limbs, LimbSegments& segments) {
   for (const std::uint32_t end : ends) {
     const double radius = limbs.diameter[end] / 2;
     if (radius <= 0) continue;
-    segments.tree.near(limbs.centre[end], k_join_tolerance * radius, radius, limbs.limb[end], k_candidates,
-                       found);
+    const double seam = seam_reach(radius, size);
+    segments.tree.near(limbs.centre[end], seam, radius, limbs.limb[end], k_candidates, found);
     for (const Nearness& near : found) {
       for (const std::uint32_t ring : segments.rings[near.segment]) {
         // A limb that begins amid another one, at an angle, is a branch of it, however thick.
         if (!is_end[ring] && !lie_alike(limbs, end, ring)) continue;
         // Two limbs that begin in one place are siblings, and grow side by side from something else.
         if (is_start[end] && is_start[ring]) continue;
-        if (coincide(limbs, end, ring)) joints.merge(end, ring);
+        const double thick = std::max(limbs.diameter[end], limbs.diameter[ring]) / 2;
+        const bool wide = go_on(limbs, next, end, ring, is_end[ring] != 0);
+        if (coincide(limbs, end, ring, wide ? seam : k_join_tolerance * thick)) joints.merge(end, ring);
       }
     }
   }

@@ -26,23 +26,20 @@ class Contact {
     segments_.tree.near(limbs_.centre[end], k_contact_reach * radius, radius / 2, limbs_.limb[end],
                         k_candidates, found_);
     for (const Nearness& near : found_) {
-      const std::uint32_t ring = limbs_.alive(segments_.rings[near.segment][near.t < 0.5 ? 0 : 1]);
-      if (is_end_[ring] &&
-          distance(limbs_.centre[ring], limbs_.centre[end]) <= std::max(radius, limbs_.diameter[ring] / 2)) {
-        continue;
-      }
-      return near.distance / std::max(near.radius, radius / 2);
+      if (!meets_end(near, end)) return near.distance / std::max(near.radius, radius / 2);
     }
     return std::numeric_limits<double>::infinity();
   }
 
   // Whether something holds a limb by this end: what it lies in or against, or what it floats a little above.
-  // It is not much thinner: a branch that begins at the top of a trunk does not hold the trunk.
+  // It is not much thinner: a branch that begins at the top of a trunk does not hold the trunk. In its middle
+  // it may be thinner, as it does not begin there.
   bool holds(std::uint32_t end, double reach) {
     const double radius = limbs_.diameter[end] / 2;
     const auto is_holder = [&](const Nearness& near) {
       const std::uint32_t ring = limbs_.alive(segments_.rings[near.segment][0]);
-      return !limbs_.plate(limbs_.limb[ring]) && near.radius * k_thicker_child >= radius;
+      const double thinner = meets_end(near, end) ? k_thicker_child : k_thinner_holder;
+      return !limbs_.plate(limbs_.limb[ring]) && near.radius * thinner >= radius;
     };
     segments_.tree.near(limbs_.centre[end], k_contact_reach * radius, radius / 2, limbs_.limb[end],
                         k_candidates, found_);
@@ -53,6 +50,13 @@ class Contact {
   }
 
  private:
+  // Whether what an end is near to is an end, too.
+  bool meets_end(const Nearness& near, std::uint32_t end) const {
+    const std::uint32_t ring = limbs_.alive(segments_.rings[near.segment][near.t < 0.5 ? 0 : 1]);
+    const double radius = std::max(limbs_.diameter[end], limbs_.diameter[ring]) / 2;
+    return is_end_[ring] && distance(limbs_.centre[ring], limbs_.centre[end]) <= radius;
+  }
+
   const Limbs& limbs_;
   const LimbSegments& segments_;
   std::vector<std::uint8_t> is_end_;
