@@ -42,7 +42,7 @@ SegmentTree make_tree(const Limbs& limbs, std::span<const std::array<std::uint32
 // `size`: what was computed twice, or rounded, is apart by a share of the whole, however thin the twig, but
 // never by much of an edge.
 double seam_reach(double radius, double size) {
-  return std::max(k_join_tolerance * radius, std::min(k_weld_of_edge * radius, k_weld_of_diagonal * size));
+  return std::max(k_join_tolerance * radius, std::min(k_weld_of_edge * radius, 2 * k_rounding * size));
 }
 
 bool coincide(const Limbs& limbs, std::uint32_t a, std::uint32_t b, double reach) {
