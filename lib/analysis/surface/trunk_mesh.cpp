@@ -126,7 +126,7 @@ TrunkMesh make_trunk_mesh(const Mesh& mesh, std::span<const std::uint8_t> is_tru
     trunk.source.push_back(used.source[t]);
     if (!file_order.empty()) trunk.file_order.push_back(file_order[used.source[t]]);
   }
-  const std::vector<std::uint32_t> surface_of_piece = sew(welded, kept_piece);
+  const std::vector<std::uint32_t> surface_of_piece = sew(used.positions, welded, kept_piece);
   std::vector<std::uint32_t> surface(used.positions.size(), k_none);
   for (std::size_t t = 0; t < kept.size(); ++t) {
     for (const std::uint32_t v : kept[t]) surface[v] = surface_of_piece[kept_piece[t]];
