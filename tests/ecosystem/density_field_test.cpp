@@ -75,28 +75,8 @@ TEST(DensityField, ClustersReachNoFartherThanTheirRadius) {
   EXPECT_GT(f.total(), 0);
 }
 
-// Brute force is the judge of the distance transform.
-TEST(DensityField, DistancesAreExactOnPixelsThatAreNotSquare) {
-  Random random(8);
-  ValueMap map{23, 17, std::vector<float>(23 * 17)};
-  for (float& v : map.values) v = random.chance(0.02) ? 1.0f : 0.0f;
-  map.values[40] = 1;
-  const PlantedArea area{0, 0, 46, 51};  // pixels of 2 x 3 m
-  const ValueMap d = distance_map(map, area);
-  for (int r = 0; r < 17; ++r)
-    for (int c = 0; c < 23; ++c) {
-      double best = 1e300;
-      for (int y = 0; y < 17; ++y)
-        for (int x = 0; x < 23; ++x)
-          if (map.values[static_cast<std::size_t>(y * 23 + x)] >= 0.5f)
-            best = std::min(best, std::hypot(2.0 * (x - c), 3.0 * (y - r)));
-      EXPECT_NEAR(d.values[static_cast<std::size_t>(r * 23 + c)], best, 1e-5);
-    }
-}
-
 TEST(DensityField, DistanceToNothingIsInfinite) {
   const ValueMap map{3, 3, std::vector<float>(9)};
-  for (const float v : distance_map(map, k_area).values) EXPECT_TRUE(std::isinf(v));
   const World world;
   PlacementRules rules;
   rules.distance_to = &map;
@@ -145,6 +125,26 @@ TEST(DensityField, ARuleThinnerThanACellHasItsShare) {
   PlacementRules band;
   band.altitude = {16.1, 16.25};
   EXPECT_NEAR(World().field(band).total(), 64 * 0.15, 0.2);
+}
+
+// Not by the pixels that places lie in: the border of what is allowed runs where the distance does.
+TEST(DensityField, DistancesAreSharpBetweenPixels) {
+  ValueMap map{8, 8, std::vector<float>(64)};
+  for (std::size_t i = 0; i < 64; i += 8) map.values[i] = 1;  // x from 0 to 8
+  const World world;
+  PlacementRules rules;
+  rules.distance_to = &map;
+  rules.distance = {2.5, 11.3};
+  const PlacementTest test(rules, k_area, world.ground);
+  for (const double x : {10.51, 13.0, 19.29}) EXPECT_TRUE(test.allows(x, 30)) << x;
+  for (const double x : {4.0, 10.49, 19.31, 60.0}) EXPECT_FALSE(test.allows(x, 30)) << x;
+  EXPECT_NEAR(world.field(rules, 640).total() / 100, 64 * 8.8, 64 * 0.06);
+}
+
+TEST(DensityField, TenThousandWideClustersTakeLittleTime) {
+  PlacementRules rules;
+  rules.clusters = {.count = 10000, .radius = 1000};
+  EXPECT_NEAR(World().field(rules, 512).total() / 512 / 512, 1, 1e-3);
 }
 
 TEST(DensityField, ClustersSmallerThanACellAreNotLost) {

@@ -82,6 +82,101 @@ TEST(Populate, NeighboursNeverTouchWhereTheirCellsHoldThem) {
     }
 }
 
+// The scale is that of the very place, wherever in its cell the map puts it.
+TEST(Populate, NeighboursNeverTouchUnderAnyScaleMap) {
+  const World world;
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    Random random(seed);
+    const auto side = static_cast<std::uint32_t>(1 + random.below(90));
+    ValueMap map{side, 1 + side / 3, {}};
+    for (std::uint32_t i = 0; i < map.width * map.height; ++i)
+      map.values.push_back(static_cast<float>(random.uniform(-0.2, 1.2)));
+    TypePlan a = type(300 + random.below(300)), b = type(200);
+    a.scale_map = &map;
+    a.scale = {random.uniform(0.05, 0.5), random.uniform(0.5, 4)};
+    a.footprint = random.uniform(0.1, 1.5), b.footprint = 0.3;
+    a.tilt_to_ground = random.chance(0.5);
+    const auto p = world.plant({a, b}, seed);
+    ASSERT_TRUE(p);
+    ASSERT_EQ(p->instances.size(), a.count + 200);
+    const double cell = 64 / std::sqrt(static_cast<double>(p->cells));
+    const auto reach = [&](const Instance& i) { return i.scale * (i.type ? b.footprint : a.footprint); };
+    std::uint64_t out = 0;
+    for (const Instance& i : p->instances) {
+      const double x = std::fmod(i.position.x, cell), z = std::fmod(i.position.z, cell), r = reach(i) - 1e-9;
+      const bool inside = x - r >= 0 && x + r <= cell && z - r >= 0 && z + r <= cell;
+      out += !inside;
+    }
+    EXPECT_LE(out, p->types[0].crowded + p->types[1].crowded) << seed;
+  }
+}
+
+TEST(Populate, SpacedDiscsNeverOverlapUnderAnyScaleMap) {
+  const World world;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Random random(seed);
+    const auto side = static_cast<std::uint32_t>(1 + random.below(90));
+    ValueMap map{side, side, {}};
+    for (std::uint32_t i = 0; i < side * side; ++i)
+      map.values.push_back(static_cast<float>(random.uniform(-0.2, 1.2)));
+    TypePlan a = type(1500), b = type(300);
+    a.scale_map = &map;
+    a.scale = {random.uniform(0.1, 0.9), random.uniform(1, 3)};
+    a.spacing = random.uniform(0.2, 1), b.spacing = 0.7;
+    a.fewer = b.fewer = true;
+    const auto p = world.plant({a, b}, seed);
+    ASSERT_TRUE(p);
+    const auto radius = [&](const Instance& i) { return i.scale * (i.type ? b.spacing : a.spacing); };
+    for (std::size_t i = 0; i < p->instances.size(); ++i)
+      for (std::size_t k = i + 1; k < p->instances.size(); ++k) {
+        const Instance &x = p->instances[i], &y = p->instances[k];
+        const double apart = std::hypot(x.position.x - y.position.x, x.position.z - y.position.z);
+        if (apart < radius(x) + radius(y) - 1e-9) ADD_FAILURE() << seed << ": " << i << ' ' << k;
+      }
+  }
+}
+
+// Of a map of four greys, up to what random packings hold.
+TEST(Populate, SpacingKeepsADensitysHistogramUntilTheGroundIsFullAndThenSaysSo) {
+  const World world;
+  const ValueMap density{4, 1, {0, 1, 2, 3}};
+  TypePlan a = type(0);
+  a.scale = {0.7, 1.3};
+  a.spacing = 0.5;
+  a.rules.density = &density;
+  a.count = 800;  // discs fill 0.16 of the ground, 0.31 where it is densest
+  const auto room = world.plant({a});
+  ASSERT_TRUE(room) << room.error().what;
+  std::vector<double> quarters(4);
+  for (const Instance& i : room->instances) ++quarters[static_cast<std::size_t>(i.position.x / 16)];
+  for (std::size_t q = 0; q < 4; ++q) EXPECT_NEAR(quarters[q], 800.0 * static_cast<double>(q) / 6, 4);
+  ASSERT_EQ(room->types[0].by_density.size(), 3u);
+  EXPECT_LE(histogram_error(room->types[0].by_density), 0.02);
+
+  a.count = 1800;  // 0.7 where it is densest: more than there is room for at random
+  const auto full = world.plant({a});
+  ASSERT_TRUE(full) << full.error().what;
+  ASSERT_EQ(full->instances.size(), 1800u);
+  const DensityShare& densest = full->types[0].by_density.back();
+  EXPECT_NEAR(densest.asked, 900, 1e-6);
+  EXPECT_LT(densest.got, 830u);
+  EXPECT_GT(densest.covered, 0.52);
+}
+
+TEST(Populate, AMillionInAMetreEndSoonWithSpacing) {
+  TypePlan a = type(1000000);
+  a.spacing = 0.5;
+  a.fewer = true;
+  std::vector<double> heard;
+  const World world;
+  const auto p = populate(std::vector{a}, world.ground, {10, 10, 11, 11}, Random(1),
+                          [&](double share) { heard.push_back(share); });
+  ASSERT_TRUE(p);
+  EXPECT_GE(p->instances.size(), 1u);
+  EXPECT_EQ(p->instances.size() + p->types[0].missing, 1000000u);
+  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+}
+
 TEST(Populate, WhatReachesOutOfItsCellIsCounted) {
   TypePlan a = type(1024);
   a.footprint = 3;

@@ -2,6 +2,9 @@
 
 #include "lib/formats/random.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace copse {
@@ -54,6 +57,39 @@ TEST(Spacing, ALargeDiscAmongTinyOnesIsAnsweredAtOnce) {
   for (const double radius : {5e-5, 1e-12, 1e-300}) spacing.add({1, 1, radius});
   EXPECT_FALSE(spacing.is_free({0, 0, 500}));
   EXPECT_TRUE(spacing.is_free({0, -500, 500}));
+}
+
+TEST(Spacing, ClearanceAndClosingAgreeWithTestingEveryDisc) {
+  Random random(2);
+  Spacing spacing;
+  std::vector<Disc> inside;
+  for (int i = 0; i < 300; ++i) {
+    const Disc d{random.uniform(-20, 20), random.uniform(-20, 20),
+                 0.01 * static_cast<double>(1 << random.below(9))};
+    spacing.add(d);
+    inside.push_back(d);
+  }
+  int closed = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double x = random.uniform(-20, 20), z = random.uniform(-20, 20), most = random.uniform(0.1, 5);
+    double clear = most;
+    for (const Disc& d : inside) clear = std::min(clear, std::hypot(x - d.x, z - d.z) - d.radius);
+    EXPECT_NEAR(spacing.clearance(x, z, most), clear, 1e-12);
+    const Patch p{x, z, random.uniform(0, 2), random.uniform(0, 2)};
+    const double radius = random.uniform(0.1, 2);
+    bool one_is_in_the_way = false;
+    for (const Disc& d : inside) {
+      double farthest = 0;
+      for (const double cx : {p.x, p.x + p.width})
+        for (const double cz : {p.z, p.z + p.depth})
+          farthest = std::max(farthest, std::hypot(cx - d.x, cz - d.z));
+      one_is_in_the_way |= farthest < d.radius + radius;
+    }
+    EXPECT_EQ(spacing.closes(p, radius), one_is_in_the_way);
+    closed += one_is_in_the_way;
+  }
+  EXPECT_GT(closed, 300);
+  EXPECT_LT(closed, 2700);
 }
 
 }  // namespace

@@ -165,5 +165,21 @@ TEST(Spread, SharesAddUp) {
   EXPECT_EQ(std::accumulate(many.begin(), many.end(), std::uint64_t{0}), 1000003u);
 }
 
+TEST(Spread, EveryCellIsInThePieceOfItsMiddle) {
+  const DensityField f = ramp(16, 16);
+  const Spreader spreader(f);
+  EXPECT_EQ(spreader.cells().size(), 15u * 16);  // the first column weighs nothing
+  std::uint64_t last = 0;
+  std::vector<double> mass(10);
+  for (std::size_t c = 0; c < spreader.cells().size(); ++c) {
+    const std::uint64_t piece = spreader.piece_of(c, 10);
+    EXPECT_GE(piece, last);
+    last = piece;
+    ASSERT_LT(piece, 10u);
+    mass[piece] += f.weights[spreader.cells()[c]];
+  }
+  for (const double m : mass) EXPECT_NEAR(m, spreader.total() / 10, 15);
+}
+
 }  // namespace
 }  // namespace copse

@@ -1,5 +1,9 @@
 #include "lib/analysis/ecosystem/value_map.h"
 
+#include "lib/formats/random.h"
+
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace copse {
@@ -26,6 +30,23 @@ TEST(ValueMap, BetweenCentresItIsLinear) {
 TEST(ValueMap, OnePixelAndNoneAreMapsToo) {
   EXPECT_EQ(smooth_at({1, 1, {5}}, k_area, 12, 21), 5);
   EXPECT_EQ(pixel_at({}, k_area, 12, 21), 0);
+}
+
+TEST(ValueMap, TheLeastInARectangleIsAtMostWhatIsReadThere) {
+  Random random(3);
+  ValueMap map{9, 7, std::vector<float>(63)};
+  for (float& v : map.values) v = static_cast<float>(random.uniform());
+  const PlantedArea area{-1, 4, 8, 25};
+  for (int i = 0; i < 500; ++i) {
+    const double x0 = random.uniform(-1, 8), z0 = random.uniform(4, 25), x1 = x0 + random.uniform(0, 2),
+                 z1 = z0 + random.uniform(0, 4);
+    const double least = least_in(map, area, x0, z0, x1, z1);
+    for (int k = 0; k < 20; ++k)
+      EXPECT_GE(smooth_at(map, area, random.uniform(x0, x1), random.uniform(z0, z1)), least - 1e-12);
+  }
+  EXPECT_EQ(least_in(map, area, -1, 4, 8, 25),
+            static_cast<double>(*std::min_element(map.values.begin(), map.values.end())));
+  EXPECT_EQ(least_in({}, area, 0, 5, 1, 6), 0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "lib/analysis/ecosystem/density_field.h"
 
 #include "lib/analysis/ecosystem/degrees.h"
+#include "lib/analysis/leaves/nearest_points.h"
 
 #include <algorithm>
 #include <bit>
@@ -19,51 +20,6 @@ bool is_limit(const ValueRange& r) {
   return r.min > -k_infinite || r.max < k_infinite;
 }
 
-// The lower envelope of parabolas (x - i)^2 step^2 + f[i]: min over i, for every x.
-void transform_line(std::vector<double>& f, double step, std::vector<double>& out,
-                    std::vector<std::size_t>& at, std::vector<double>& border) {
-  const std::size_t n = f.size();
-  out.assign(n, k_infinite);
-  at.assign(n, 0);
-  border.assign(n + 1, 0);
-  std::size_t k = 0;
-  bool any = false;
-  const double s2 = step * step;
-  for (std::size_t q = 0; q < n; ++q) {
-    if (f[q] == k_infinite) continue;
-    if (!any) {
-      any = true;
-      at[0] = q;
-      border[0] = -k_infinite;
-      border[1] = k_infinite;
-      continue;
-    }
-    double cut = 0;
-    while (true) {
-      const auto p = static_cast<double>(at[k]), x = static_cast<double>(q);
-      cut = ((f[q] - f[at[k]]) / s2 + x * x - p * p) / (2 * (x - p));
-      if (cut > border[k] || k == 0) break;
-      --k;
-    }
-    if (cut <= border[k]) {
-      at[k] = q;
-      border[k + 1] = k_infinite;
-      continue;
-    }
-    ++k;
-    at[k] = q;
-    border[k] = cut;
-    border[k + 1] = k_infinite;
-  }
-  if (!any) return;
-  std::size_t j = 0;
-  for (std::size_t q = 0; q < n; ++q) {
-    while (border[j + 1] < static_cast<double>(q)) ++j;
-    const double d = (static_cast<double>(q) - static_cast<double>(at[j])) * step;
-    out[q] = d * d + f[at[j]];
-  }
-}
-
 // How much the clusters leave of every cell: 1 at a centre, smoothly 0 at the radius; where clusters meet the
 // nearer one counts. A cluster smaller than a cell still has the cell that it is in.
 std::vector<double> cluster_kernel(const Clusters& clusters, const DensityField& f, const Random& random) {
@@ -74,23 +30,14 @@ std::vector<double> cluster_kernel(const Clusters& clusters, const DensityField&
     Random stream = random.fork(i);
     centres.push_back({stream.uniform(f.area.x0, f.area.x1), 0, stream.uniform(f.area.z0, f.area.z1)});
   }
-  std::vector<double> kernel(f.weights.size(), most);
+  const NearestPoints nearest(centres);
+  std::vector<double> kernel(f.weights.size());
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, f.rows), [&](const auto& range) {
-    for (std::uint32_t r = range.begin(); r < range.end(); ++r) {
-      double* row = kernel.data() + std::size_t{r} * f.columns;
-      const double z = f.area.z0 + (r + 0.5) / f.rows * f.area.depth();
-      for (const Double3& c : centres) {
-        const double dz = z - c.z, left = most - dz * dz;
-        if (!(left > 0)) continue;
-        const double reach = std::sqrt(left) / w, at = (c.x - f.area.x0) / w;
-        const auto first = static_cast<std::uint32_t>(std::max(at - reach - 1, 0.0));
-        const auto end = static_cast<std::uint32_t>(std::min(at + reach + 1, 1.0 * f.columns));
-        for (std::uint32_t k = first; k < end; ++k) {
-          const double dx = f.area.x0 + (k + 0.5) / f.columns * f.area.width() - c.x;
-          row[k] = std::min(row[k], dx * dx + dz * dz);
-        }
-      }
-      for (std::uint32_t k = 0; k < f.columns; ++k) row[k] = (1 - row[k] / most) * (1 - row[k] / most);
+    for (std::uint32_t cell = range.begin() * f.columns; cell < range.end() * f.columns; ++cell) {
+      const GroundPlace at = f.point(cell, 0.5, 0.5);
+      const Double3& c = centres[nearest.nearest({at.x, 0, at.z})];
+      const double dx = at.x - c.x, dz = at.z - c.z, near = std::min(dx * dx + dz * dz, most);
+      kernel[cell] = (1 - near / most) * (1 - near / most);
     }
   });
   return kernel;
@@ -152,29 +99,6 @@ std::uint32_t field_side(std::uint32_t largest_map, std::uint64_t instances, con
   return side;
 }
 
-ValueMap distance_map(const ValueMap& map, const PlantedArea& area) {
-  const double sx = area.width() / map.width, sz = area.depth() / map.height;
-  std::vector<double> squares(map.values.size());
-  for (std::size_t i = 0; i < squares.size(); ++i) squares[i] = map.values[i] >= 0.5f ? 0 : k_infinite;
-  std::vector<double> line, out, border;
-  std::vector<std::size_t> at;
-  for (std::uint32_t c = 0; c < map.width; ++c) {
-    line.resize(map.height);
-    for (std::uint32_t r = 0; r < map.height; ++r) line[r] = squares[std::size_t{r} * map.width + c];
-    transform_line(line, sz, out, at, border);
-    for (std::uint32_t r = 0; r < map.height; ++r) squares[std::size_t{r} * map.width + c] = out[r];
-  }
-  ValueMap result{map.width, map.height, std::vector<float>(map.values.size())};
-  for (std::uint32_t r = 0; r < map.height; ++r) {
-    const auto row = squares.begin() + static_cast<std::ptrdiff_t>(std::size_t{r} * map.width);
-    line.assign(row, row + map.width);
-    transform_line(line, sx, out, at, border);
-    for (std::uint32_t c = 0; c < map.width; ++c)
-      result.values[std::size_t{r} * map.width + c] = static_cast<float>(std::sqrt(out[c]));
-  }
-  return result;
-}
-
 PlacementTest::PlacementTest(const PlacementRules& rules, const PlantedArea& area,
                              const TerrainGround& ground)
     : rules_(rules), area_(area), ground_(ground) {
@@ -184,12 +108,13 @@ PlacementTest::PlacementTest(const PlacementRules& rules, const PlantedArea& are
     most_up_ = sin_cos_degrees(std::clamp(rules.slope.min, 0.0, 90.0)).cos;
     if (rules.slope.max < 0 || rules.slope.min > 90) least_up_ = 2;  // never
   }
-  if (rules.distance_to) distance_ = distance_map(*rules.distance_to, area);
+  if (rules.distance_to) distance_ = PixelDistance(*rules.distance_to, area);
 }
 
 bool PlacementTest::allows(double x, double z) const {
   if (rules_.forbidden && pixel_at(*rules_.forbidden, area_, x, z) >= 0.5) return false;
-  if (rules_.distance_to && !rules_.distance.holds(pixel_at(distance_, area_, x, z))) return false;
+  if (rules_.distance_to && !distance_.is_within(x, z, rules_.distance.min, rules_.distance.max))
+    return false;
   const auto here = ground_.at(x, z);
   if (!here) return false;
   if (is_limit(rules_.slope) && !(here->normal.y >= least_up_ && here->normal.y <= most_up_)) return false;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "lib/analysis/ecosystem/ground.h"
+#include "lib/analysis/ecosystem/pixel_distance.h"
 #include "lib/analysis/ecosystem/value_map.h"
 #include "lib/formats/random.h"
 
@@ -31,7 +32,8 @@ struct PlacementRules {
   const ValueMap* forbidden = nullptr;  // nothing stands where it is at least 1/2
   const ValueMap* share_of = nullptr;   // of a species mix: density is multiplied by share_of / share_total
   std::vector<const ValueMap*> share_total{};
-  const ValueMap* distance_to = nullptr;  // `distance` is that to the nearest point where it is at least 1/2
+  const ValueMap* distance_to =
+      nullptr;  // `distance` is that to its pixels of at least 1/2 (pixel_distance.h)
   ValueRange distance{}, slope{}, altitude{};  // m, degrees, m
   Clusters clusters{};
   bool limits_anything() const;
@@ -81,11 +83,7 @@ class PlacementTest {
   PlantedArea area_;
   const TerrainGround& ground_;
   double least_up_ = 0, most_up_ = 1;  // the slope as the normal's y
-  ValueMap distance_;                  // m, one a pixel of distance_to
+  PixelDistance distance_;             // to the pixels of distance_to
 };
-
-// For every pixel of `map` the distance in metres from its centre to the nearest centre of a pixel of at
-// least 1/2; +infinity when there is none. Exact; O(pixels) (Felzenszwalb and Huttenlocher 2012).
-ValueMap distance_map(const ValueMap& map, const PlantedArea& area);
 
 }  // namespace copse

@@ -62,23 +62,16 @@ class Placer {
   }
 
   void put_at_random(std::uint64_t count, Random random) {
-    while (count > 0) {
-      if (free_.count() == 0) {  // more instances than cells: every cell may be used once more
-        free_ = FreeCells(cells_);
-        places_.shared += count;
-      }
-      std::vector<std::uint64_t> open;
-      open.reserve(free_.count());
-      for (std::uint64_t c = 0; c < cells_; ++c)
-        if (free_.is_free(c)) open.push_back(c);
-      const std::uint64_t now = std::min<std::uint64_t>(count, open.size());
-      for (std::uint64_t i = 0; i < now; ++i) {
-        std::swap(open[i], open[i + random.below(open.size() - i)]);
-        put(open[i]);
-      }
-      places_.at_random += now;
-      count -= now;
+    if (count == 0) return;
+    std::vector<std::uint64_t> open;
+    open.reserve(free_.count());
+    for (std::uint64_t c = 0; c < cells_; ++c)
+      if (free_.is_free(c)) open.push_back(c);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      std::swap(open[i], open[i + random.below(open.size() - i)]);
+      put(open[i]);
     }
+    places_.at_random += count;
   }
 
   std::uint64_t cells_;

@@ -25,10 +25,9 @@ struct CellPlaces {
   std::vector<std::uint64_t> cells;  // of type 0's instances, of type 1's, ...
   std::uint64_t displaced = 0;       // found their cell taken
   std::uint64_t at_random = 0;       // were left when the walk had passed the last cell
-  std::uint64_t shared = 0;          // more instances than cells: these share one, and the grid began anew
 };
 
-// Counts are kept whatever they are; `cells` > 0. Type t draws from random.fork(t).
+// Counts are kept; precondition: they add up to `cells` at most. Type t draws from random.fork(t).
 CellPlaces place_in_cells(std::span<const std::uint64_t> counts, std::uint64_t cells, const Random& random);
 
 }  // namespace copse

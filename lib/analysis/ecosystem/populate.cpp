@@ -1,13 +1,16 @@
 #include "lib/analysis/ecosystem/populate.h"
 
+#include "lib/analysis/ecosystem/density_shares.h"
 #include "lib/analysis/ecosystem/jittered_cells.h"
 #include "lib/analysis/ecosystem/spacing.h"
 #include "lib/analysis/ecosystem/spread.h"
+#include "lib/analysis/ecosystem/spread_apart.h"
 #include "lib/analysis/ecosystem/tilt.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -23,13 +26,18 @@ enum Stream : std::uint64_t { stream_cells = 1 << 20, stream_place, stream_look,
 // would show the grid: it keeps this share of the cell from the border.
 constexpr double k_crowded_margin = 0.25;
 
-constexpr int k_tries_in_piece = 30, k_tries_anywhere = 1000, k_failures_in_a_row = 50;
+constexpr int k_tries_in_cell = 32, k_halvings = 40;
 
 class Planter {
  public:
   Planter(std::span<const TypePlan> types, const TerrainGround& ground, const PlantedArea& area,
-          const Random& random)
-      : types_(types), ground_(ground), area_(area), random_(random), random_ones_(types.size()) {
+          const Random& random, const std::function<void(double)>& progress)
+      : types_(types),
+        ground_(ground),
+        area_(area),
+        random_(random),
+        progress_(progress),
+        random_ones_(types.size()) {
     out_.types.resize(types.size());
   }
 
@@ -118,19 +126,47 @@ class Planter {
     std::vector<std::uint8_t> crowded(cells.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 1024), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        Random random = stream(t, stream_place).fork(i);
         const auto column = cells[i] % side, row = cells[i] / side;
-        const double x0 = area_.x0 + static_cast<double>(column) * w;
-        const double z0 = area_.z0 + static_cast<double>(row) * d;
-        const double reach = types_[t].footprint * scale_of(t, i, {x0 + w / 2, z0 + d / 2});
-        crowded[i] = 2 * reach > std::min(w, d);
-        const double mx = crowded[i] ? k_crowded_margin * w : reach;
-        const double mz = crowded[i] ? k_crowded_margin * d : reach;
-        const double x = random.uniform(x0 + mx, x0 + w - mx), z = random.uniform(z0 + mz, z0 + d - mz);
-        random_ones_[t][i] = instance(t, i, {x, z});
+        const Patch cell{area_.x0 + static_cast<double>(column) * w, area_.z0 + static_cast<double>(row) * d,
+                         w, d};
+        Random random = stream(t, stream_place).fork(i);
+        auto at = place_inside(t, i, cell, random);
+        crowded[i] = !at;
+        if (!at) at = place_between(cell, k_crowded_margin * w, k_crowded_margin * d, random);
+        random_ones_[t][i] = instance(t, i, *at);
       }
     });
     out_.types[t].crowded = static_cast<std::uint64_t>(std::count(crowded.begin(), crowded.end(), 1));
+  }
+
+  static GroundPlace place_between(const Patch& cell, double mx, double mz, Random& random) {
+    const double x = random.uniform(cell.x + mx, cell.x + cell.width - mx),
+                 z = random.uniform(cell.z + mz, cell.z + cell.depth - mz);
+    return {x, z};
+  }
+
+  // A place where the footprint, as large as its scale is at that very place, stays in the cell; none when
+  // none was found, and it is too large in the middle.
+  std::optional<GroundPlace> place_inside(std::size_t t, std::uint64_t i, const Patch& cell,
+                                          Random& random) const {
+    const TypePlan& p = types_[t];
+    const GroundPlace middle{cell.x + cell.width / 2, cell.z + cell.depth / 2};
+    const double least = p.footprint * (p.scale_map ? p.scale.min : scale_of(t, i, middle));
+    if (2 * least > std::min(cell.width, cell.depth)) return std::nullopt;
+    if (!p.scale_map) return place_between(cell, least, least, random);
+    const auto fits = [&](const GroundPlace& at) {
+      const double reach = p.footprint * scale_of(t, i, at);
+      return at.x - reach >= cell.x && at.x + reach <= cell.x + cell.width && at.z - reach >= cell.z &&
+             at.z + reach <= cell.z + cell.depth;
+    };
+    GroundPlace at;
+    for (int n = 0; n < k_tries_in_cell; ++n)
+      if (at = place_between(cell, least, least, random); fits(at)) return at;
+    if (!fits(middle)) return std::nullopt;
+    // As far from the middle as it fits, towards the last place that was tried.
+    for (int n = 0; n < k_halvings; ++n)
+      if (at = {(at.x + middle.x) / 2, (at.z + middle.z) / 2}; fits(at)) return at;
+    return middle;
   }
 
   std::unexpected<Error> nowhere(std::size_t t) const {
@@ -164,86 +200,79 @@ class Planter {
         const Disc disc{i.position.x, i.position.z, types_[t].spacing * i.scale};
         if (!spacing_.is_free(disc)) ++out_.types[t].overlapping;
         spacing_.add(disc);
+        discs_.push_back(disc);
       }
     }
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return types_[a].spacing * types_[a].scale.max > types_[b].spacing * types_[b].scale.max;
     });
-    for (const std::size_t t : order)
-      if (auto done = space(t); !done) return done;
+    for (std::size_t k = 0; k < order.size(); ++k)
+      if (auto done = space(order[k], k, order.size()); !done) return done;
     return {};
   }
 
-  Result<void> space(std::size_t t) {
+  Result<void> space(std::size_t t, std::size_t number, std::size_t of) {
     const TypePlan& p = types_[t];
     if (p.count == 0) return {};
-    const DensityField field = field_of(types_[t], t, ground_, area_, random_);
+    const DensityField field = field_of(p, t, ground_, area_, random_);
     const Spreader spreader(field);
     if (!(spreader.total() > 0)) return nowhere(t);
     const PlacementTest test(p.rules, area_, ground_);
-    const Feet feet = feet_to_avoid(t);
-    int failures = 0;
-    // In a random order: along the curve, the last ones would find their piece hemmed in by the first.
-    std::vector<std::uint64_t> pieces(p.count);
-    std::iota(pieces.begin(), pieces.end(), 0);
-    stream(t, stream_place).fork(p.count).shuffle(std::span(pieces));
-    for (const std::uint64_t i : pieces) {
-      if (place_apart(t, i, spreader, test, feet)) {
-        failures = 0;
-        continue;
-      }
-      if (++failures == k_failures_in_a_row) break;
-    }
-    out_.types[t].missing = p.count - random_ones_[t].size();
+    DiscsApart wanted{
+        .count = p.count,
+        .radius = [&](auto i, const auto& at) { return p.spacing * scale_of(t, i, at); },
+        .by_place = p.scale_map != nullptr,
+        .least = [&](const Patch& patch) { return p.spacing * least_scale(p, patch); },
+        .least_anywhere = p.spacing * p.scale.min,
+        .feet = feet_to_avoid(t),
+        .place = [&](auto i, const auto& at) { random_ones_[t].push_back(instance(t, i, at)); }};
+    if (progress_)
+      wanted.progress = [&](double share) {
+        progress_((static_cast<double>(number) + share) / static_cast<double>(of));
+      };
+    out_.types[t].missing = spread_apart(wanted, field, spreader, test, stream(t, stream_place), spacing_);
     if (out_.types[t].missing > 0 && !p.fewer)
       return refuse("",
                     fmt::format("{}: {} asked for, there is room for {} at this spacing", p.name, p.count,
                                 random_ones_[t].size()),
                     "lower count or spacing, or set \"fewer\" to take what fits");
+    take_shares(t, field);
     return {};
   }
 
-  // Points as discs, because Spacing knows discs alone: what is asked of them is smaller by their radius.
-  struct Feet {
-    Spacing discs;
-    double radius = 0;
-    bool clear_of(const Disc& disc) const {
-      return discs.size() == 0 || discs.is_free({disc.x, disc.z, disc.radius - radius});
+  void take_shares(std::size_t t, const DensityField& field) {
+    std::vector<GroundPlace> feet;
+    for (const Instance& i : random_ones_[t]) {
+      feet.push_back({i.position.x, i.position.z});
+      discs_.push_back({i.position.x, i.position.z, types_[t].spacing * i.scale});
     }
-  };
-
-  Feet feet_to_avoid(std::size_t t) const {
-    Feet feet{.discs = {}, .radius = types_[t].spacing * types_[t].scale.min / 2};
-    const auto add = [&](const Instance& i) { feet.discs.add({i.position.x, i.position.z, feet.radius}); };
-    for (const std::size_t other : types_[t].avoid) {
-      if (types_[other].spacing > 0) continue;  // they keep apart anyway
-      for (const Instance& i : random_ones_[other]) add(i);
-      for (const Instance& i : types_[other].manual) add(i);
-    }
-    return feet;
+    out_.types[t].by_density = density_shares(field, types_[t].count, feet, discs_);
   }
 
-  bool place_apart(std::size_t t, std::uint64_t i, const Spreader& spreader, const PlacementTest& test,
-                   const Feet& feet) {
-    Random random = stream(t, stream_place).fork(i);
-    for (int n = 0; n < k_tries_in_piece + k_tries_anywhere; ++n) {
-      const bool own = n < k_tries_in_piece;
-      const GroundPlace at = spreader.draw(own ? i : 0, own ? types_[t].count : 1, test, random);
-      const Disc disc{at.x, at.z, types_[t].spacing * scale_of(t, i, at)};
-      if (!spacing_.is_free(disc) || !feet.clear_of(disc)) continue;
-      spacing_.add(disc);
-      random_ones_[t].push_back(instance(t, i, at));
-      return true;
+  double least_scale(const TypePlan& p, const Patch& at) const {
+    if (!p.scale_map) return p.scale.min;
+    const double v = least_in(*p.scale_map, area_, at.x, at.z, at.x + at.width, at.z + at.depth);
+    return p.scale.min + (p.scale.max - p.scale.min) * std::clamp(v, 0.0, 1.0);
+  }
+
+  std::vector<GroundPlace> feet_to_avoid(std::size_t t) const {
+    std::vector<GroundPlace> feet;
+    for (const std::size_t other : types_[t].avoid) {
+      if (types_[other].spacing > 0) continue;  // they keep apart anyway
+      for (const Instance& i : random_ones_[other]) feet.push_back({i.position.x, i.position.z});
+      for (const Instance& i : types_[other].manual) feet.push_back({i.position.x, i.position.z});
     }
-    return false;
+    return feet;
   }
 
   std::span<const TypePlan> types_;
   const TerrainGround& ground_;
   PlantedArea area_;
   Random random_;
+  const std::function<void(double)>& progress_;
   std::vector<std::vector<Instance>> random_ones_;
   Spacing spacing_;
+  std::vector<Disc> discs_;  // those in spacing_
   Population out_;
 };
 
@@ -261,8 +290,9 @@ DensityField field_of(const TypePlan& plan, std::size_t type, const TerrainGroun
 }
 
 Result<Population> populate(std::span<const TypePlan> types, const TerrainGround& ground,
-                            const PlantedArea& area, const Random& random) {
-  return Planter(types, ground, area, random).plant();
+                            const PlantedArea& area, const Random& random,
+                            const std::function<void(double)>& progress) {
+  return Planter(types, ground, area, random, progress).plant();
 }
 
 }  // namespace copse

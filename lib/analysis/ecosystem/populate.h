@@ -2,14 +2,15 @@
 //
 // Types that nothing limits share the jittered cells of the thesis (jittered_cells.h); those with maps or
 // rules are spread over a density field (spread.h); those with spacing are kept apart from all others with
-// spacing (spacing.h), the largest first, and from the feet of those that they are to avoid. Counts are kept,
-// or the run is refused.
+// spacing (spread_apart.h), the largest first, and from the feet of those that they are to avoid. Counts are
+// kept, or the run is refused.
 //
 // Every instance has random streams of its own, so the result is the same for any number of threads. Source:
 // digest 000, sections 2.2 to 2.4 and 8, errata E3 to E6.
 #pragma once
 
 #include "lib/analysis/ecosystem/density_field.h"
+#include "lib/analysis/ecosystem/density_shares.h"
 #include "lib/analysis/ecosystem/ground.h"
 #include "lib/formats/ecosystem/ecosystem.h"
 #include "lib/formats/random.h"
@@ -17,6 +18,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,6 +55,7 @@ struct TypeCounts {
   std::uint64_t crowded = 0;      // reach out of their cell: no promise that they do not touch
   std::uint64_t overlapping = 0;  // by hand, with spacing: discs that overlap one by hand before them
   std::uint64_t missing = 0;      // did not fit, with `fewer`
+  std::vector<DensityShare> by_density{};  // of a type with spacing
 };
 
 struct Population {
@@ -67,8 +70,10 @@ DensityField field_of(const TypePlan& plan, std::size_t type, const TerrainGroun
                       const PlantedArea& area, const Random& random);
 
 // Refused: no ground that the rules allow for a type that is to be planted; spacing that leaves no room for
-// all.
+// all. `progress` hears from 0 to 1 how far types with spacing are, now and then, from the thread of the
+// call.
 Result<Population> populate(std::span<const TypePlan> types, const TerrainGround& ground,
-                            const PlantedArea& area, const Random& random);
+                            const PlantedArea& area, const Random& random,
+                            const std::function<void(double)>& progress = {});
 
 }  // namespace copse

@@ -17,29 +17,51 @@ std::int64_t bucket(double at, double side) {
 
 }  // namespace
 
-bool Spacing::is_free(const Disc& d) const {
-  const auto clear_of = [&](const std::vector<Disc>& others) {
-    return std::none_of(others.begin(), others.end(), [&](const Disc& other) {
-      const double dx = d.x - other.x, dz = d.z - other.z, least = d.radius + other.radius;
-      return dx * dx + dz * dz < least * least;
-    });
-  };
+template <class Test>
+bool Spacing::any_near(double x, double z, double radius, const Test& test) const {
   for (const auto& [exponent, level] : levels_) {
-    const double reach = d.radius + level.bucket / 2, side = 2 * reach / level.bucket;
+    const double reach = radius + level.bucket / 2, side = 2 * reach / level.bucket;
     if (side * side > static_cast<double>(level.buckets.size())) {
       // Among much smaller ones: fewer buckets are filled than lie in reach. Any order gives the same answer.
       for (const auto& [at, discs] : level.buckets)
-        if (!clear_of(discs)) return false;
+        if (std::any_of(discs.begin(), discs.end(), test)) return true;
       continue;
     }
-    const std::int64_t x1 = bucket(d.x + reach, level.bucket), z1 = bucket(d.z + reach, level.bucket);
-    for (std::int64_t z = bucket(d.z - reach, level.bucket); z <= z1; ++z)
-      for (std::int64_t x = bucket(d.x - reach, level.bucket); x <= x1; ++x) {
-        const auto found = level.buckets.find(key(x, z));
-        if (found != level.buckets.end() && !clear_of(found->second)) return false;
+    const std::int64_t x1 = bucket(x + reach, level.bucket), z1 = bucket(z + reach, level.bucket);
+    for (std::int64_t r = bucket(z - reach, level.bucket); r <= z1; ++r)
+      for (std::int64_t c = bucket(x - reach, level.bucket); c <= x1; ++c) {
+        const auto found = level.buckets.find(key(c, r));
+        if (found != level.buckets.end() && std::any_of(found->second.begin(), found->second.end(), test))
+          return true;
       }
   }
-  return true;
+  return false;
+}
+
+bool Spacing::is_free(const Disc& d) const {
+  return !any_near(d.x, d.z, d.radius, [&](const Disc& other) {
+    const double dx = d.x - other.x, dz = d.z - other.z, least = d.radius + other.radius;
+    return dx * dx + dz * dz < least * least;
+  });
+}
+
+double Spacing::clearance(double x, double z, double most) const {
+  double clear = most;
+  any_near(x, z, most, [&](const Disc& other) {
+    const double dx = x - other.x, dz = z - other.z;
+    clear = std::min(clear, std::sqrt(dx * dx + dz * dz) - other.radius);
+    return false;
+  });
+  return clear;
+}
+
+bool Spacing::closes(const Patch& p, double radius) const {
+  const double x = p.x + p.width / 2, z = p.z + p.depth / 2;
+  return any_near(x, z, radius, [&](const Disc& other) {
+    const double dx = std::abs(x - other.x) + p.width / 2, dz = std::abs(z - other.z) + p.depth / 2,
+                 least = radius + other.radius;
+    return dx * dx + dz * dz < least * least;
+  });
 }
 
 void Spacing::add(const Disc& d) {

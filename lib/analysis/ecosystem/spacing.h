@@ -18,14 +18,26 @@ struct Disc {
   double x = 0, z = 0, radius = 0;
 };
 
+// A rectangle along the axes, from (x, z) on.
+struct Patch {
+  double x = 0, z = 0, width = 0, depth = 0;
+};
+
 class Spacing {
  public:
   // Whether a disc here would overlap none of those inside; touching is allowed.
   bool is_free(const Disc& disc) const;
+  // From (x, z) to the nearest border of a disc, negative inside of one; `most` when that is farther.
+  double clearance(double x, double z, double most) const;
+  // Whether a single disc is in the way of any other of `radius` whose centre is in the patch.
+  bool closes(const Patch& patch, double radius) const;
   void add(const Disc& disc);
   std::size_t size() const { return count_; }
 
  private:
+  // Whether `test` holds of any disc that one of `radius` here may overlap, and perhaps of some beyond.
+  template <class Test>
+  bool any_near(double x, double z, double radius, const Test& test) const;
   struct Level {
     double bucket = 1;                                             // side: the largest diameter of the level
     std::unordered_map<std::uint64_t, std::vector<Disc>> buckets;  // by key

@@ -30,6 +30,12 @@ std::uint32_t Spreader::cell_of(std::uint64_t piece, std::uint64_t pieces, Rando
   return cells_[static_cast<std::size_t>(std::min(found, cumulative_.end() - 1) - cumulative_.begin())];
 }
 
+std::uint64_t Spreader::piece_of(std::size_t cell, std::uint64_t pieces) const {
+  const double before = cell == 0 ? 0 : cumulative_[cell - 1];
+  const double share = (before + cumulative_[cell]) / 2 / total();
+  return std::min(static_cast<std::uint64_t>(share * static_cast<double>(pieces)), pieces - 1);
+}
+
 GroundPlace Spreader::draw(std::uint64_t piece, std::uint64_t pieces, const PlacementTest& test,
                            Random& random) const {
   const std::uint32_t cell = cell_of(piece, pieces, random);

@@ -26,6 +26,9 @@ class Spreader {
   // only where it allows. No point comes twice, however little of the cell is allowed. total() > 0.
   GroundPlace draw(std::uint64_t piece, std::uint64_t pieces, const PlacementTest& test,
                    Random& random) const;
+  // The cells that have mass, along the curve, and of each in which of `pieces` the middle of its mass lies.
+  std::span<const std::uint32_t> cells() const { return cells_; }
+  std::uint64_t piece_of(std::size_t cell, std::uint64_t pieces) const;
 
  private:
   std::uint32_t cell_of(std::uint64_t piece, std::uint64_t pieces, Random& random) const;

@@ -36,4 +36,29 @@ double smooth_at(const ValueMap& map, const PlantedArea& area, double x, double 
   return near + fv * (far - near);
 }
 
+double least_in(const ValueMap& map, const PlantedArea& area, double x0, double z0, double x1, double z1) {
+  if (map.values.empty()) return 0;
+  // Between the same four middles it is bilinear: least at a corner.
+  const auto middle = [](double at, double low, double high, std::uint32_t count) {
+    return std::floor(pixels(at, low, high, count) - 0.5);
+  };
+  if (middle(x0, area.x0, area.x1, map.width) == middle(x1, area.x0, area.x1, map.width) &&
+      middle(z0, area.z0, area.z1, map.height) == middle(z1, area.z0, area.z1, map.height))
+    return std::min({smooth_at(map, area, x0, z0), smooth_at(map, area, x1, z0), smooth_at(map, area, x0, z1),
+                     smooth_at(map, area, x1, z1)});
+  const auto pixel = [](double at, double low, double high, std::uint32_t count, double side) {
+    return static_cast<std::uint32_t>(std::clamp(pixels(at, low, high, count) + side, 0.0, count - 1.0));
+  };
+  // As smooth_at: half a pixel before the middle is that of the one before.
+  const std::uint32_t c0 = pixel(x0, area.x0, area.x1, map.width, -0.5),
+                      c1 = pixel(x1, area.x0, area.x1, map.width, 0.5),
+                      r0 = pixel(z0, area.z0, area.z1, map.height, -0.5),
+                      r1 = pixel(z1, area.z0, area.z1, map.height, 0.5);
+  float least = map.values[std::size_t{r0} * map.width + c0];
+  for (std::uint32_t r = r0; r <= r1; ++r)
+    for (std::uint32_t c = c0; c <= c1; ++c)
+      least = std::min(least, map.values[std::size_t{r} * map.width + c]);
+  return static_cast<double>(least);
+}
+
 }  // namespace copse

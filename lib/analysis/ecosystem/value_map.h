@@ -27,4 +27,8 @@ double pixel_at(const ValueMap& map, const PlantedArea& area, double x, double z
 // Linear between the centres of pixels.
 double smooth_at(const ValueMap& map, const PlantedArea& area, double x, double z);
 
+// At most what smooth_at is anywhere from (x0, z0) to (x1, z1): the least of the pixels that have a part in
+// it.
+double least_in(const ValueMap& map, const PlantedArea& area, double x0, double z0, double x1, double z1);
+
 }  // namespace copse

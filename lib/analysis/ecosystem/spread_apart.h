@@ -1,0 +1,42 @@
+// Spreads discs over a density field so that none overlap: a Poisson-disk pattern of variable radius that is
+// maximal, and follows the density as long as there is room.
+//
+// Every disc first tries its own piece of the field's mass (spread.h), in a random order. For those that find
+// none there, gaps are searched: patches of ground that no single disc closes are thrown darts at and halved,
+// first those of 32 pieces side by side, then of twice as many, up to the whole field. So a disc leaves its
+// part of the field only when that is full, and one that is left over found no gap anywhere. A gap that is
+// narrower than an eighth of the disc's radius, seen as the places where its centre may be, can be missed,
+// and so can ground of which the rules allow less than a part in some hundred.
+//
+// Source: the patches are those of Ebeida, Mitchell, Patney, Davidson, Owens, "A simple algorithm for maximal
+// Poisson-disk sampling in high dimensions" (Eurographics 2012). O((discs + cells) log discs).
+#pragma once
+
+#include "lib/analysis/ecosystem/density_field.h"
+#include "lib/analysis/ecosystem/spacing.h"
+#include "lib/analysis/ecosystem/spread.h"
+#include "lib/formats/random.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace copse {
+
+struct DiscsApart {
+  std::uint64_t count = 0;
+  std::function<double(std::uint64_t disc, const GroundPlace& at)> radius;  // m, above 0
+  bool by_place = false;                      // the radius is that of the place, whichever disc it is
+  std::function<double(const Patch&)> least;  // no disc has a smaller one here
+  double least_anywhere = 0;                  // above 0
+  std::vector<GroundPlace> feet{};            // what no disc may have inside
+  std::function<void(double)> progress{};     // 0 to 1, now and then; may be empty
+  std::function<void(std::uint64_t disc, const GroundPlace& at)> place;  // is called for each that found room
+};
+
+// Adds the discs to those that are in the way already. Answers how many found no room. `spreader` and `test`
+// are of `field`; spreader.total() > 0.
+std::uint64_t spread_apart(const DiscsApart& wanted, const DensityField& field, const Spreader& spreader,
+                           const PlacementTest& test, const Random& random, Spacing& discs);
+
+}  // namespace copse
