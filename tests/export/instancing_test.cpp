@@ -49,6 +49,22 @@ TEST(Instancing, ANodeGetsItsInstancesAndTheOthersStay) {
   EXPECT_EQ(glb.json["extensionsRequired"], nlohmann::json::array({"EXT_mesh_gpu_instancing"}));
 }
 
+TEST(Instancing, ColoursAreAnAttributeOfTheirOwnWhereThereAreAny) {
+  const NodeInstances oaks{
+      "oak", {{1, 2, 3}, {4, 5, 6}}, {{0, 0, 0, 1}, {0, 1, 0, 0}}, {1, 2}, {{1, 0.5f, 0}, {0, 1, 1}}},
+      ground{"ground", {{0, 0, 0}}, {{0, 0, 0, 1}}, {1}};
+  const auto bytes = with_instances(little_glb(), std::vector{oaks, ground}, {});
+  ASSERT_TRUE(bytes) << bytes.error().what;
+  const GlbFile glb = take_apart(*bytes);
+  for (const auto& node : glb.json["nodes"]) {
+    if (!node.contains("extensions")) continue;
+    const auto& attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+    ASSERT_EQ(attributes.contains("_COLOR_0"), node["name"] == "oak");
+    if (node["name"] != "oak") continue;
+    EXPECT_EQ(numbers(glb, attributes["_COLOR_0"], 3), (std::vector<float>{1, 0.5f, 0, 0, 1, 1}));
+  }
+}
+
 TEST(Instancing, AsNodesEachInstanceIsAChildThatSharesTheMesh) {
   const NodeInstances oaks{"oak", {{1, 2, 3}, {4, 5, 6}}, {{0, 0, 0, 1}, {0, 1, 0, 0}}, {1, 2}};
   const auto bytes = with_instances(little_glb(), std::vector{oaks}, {}, Instancing::nodes);

@@ -2,13 +2,10 @@
 #include "lib/formats/ecosystem/ecosystem_file.h"
 #include "lib/formats/ecosystem/instance_codec.h"
 #include "lib/formats/import/image.h"
-#include "lib/formats/tree_file/tree_file.h"
-#include "tests/formats/tree_maker.h"
 #include "tests/tools/ecogen_folder.h"
 
 #include <cmath>
-#include <fstream>
-#include <set>
+#include <limits>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -116,7 +113,8 @@ TEST_F(Ecogen, EditsSetValues) {
   const Ecosystem eco = load();
   EXPECT_EQ(eco.types[0].instances, 7u);
   EXPECT_EQ(eco.types[1].name, "fern");
-  for (const char* wrong : {"types[9].count=1", "types[0]count", "=1", "types[x].count=1", "no.such=1"})
+  for (const char* wrong :
+       {"types[9].count=1", "types[0]count", "=1", "types[x].count=1", "no.such=1", "types.[0].count=1"})
     EXPECT_EQ(run({"--edit", wrong}).status, 2) << wrong;
   page_["types"][0].erase("scale");
   const Outcome o = run({"--edit", "types[0].scale.max=0.1"});
@@ -124,7 +122,13 @@ TEST_F(Ecogen, EditsSetValues) {
   EXPECT_NE(o.err.find(R"(--edit 'types[0].scale={"max": 0.1, ...}')"), std::string::npos) << o.err;
   EXPECT_EQ(run({"--edit", R"(types[0].scale={"max": 0.1, "min": 0.01})"}).status, 0);
   page_["block_trees"] = {"kd", "kd"};
-  EXPECT_EQ(run().status, 1);
+  const Outcome twice = run();
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_NE(twice.err.find(
+                "block_trees: a list of 2 is not allowed here; give it a list of at most 2 elements, none of "
+                "them twice"),
+            std::string::npos)
+      << twice.err;
 }
 
 TEST_F(Ecogen, ExtremesHaveADefinedResult) {
@@ -143,92 +147,49 @@ TEST_F(Ecogen, ExtremesHaveADefinedResult) {
   ASSERT_EQ(run().status, 0);
 }
 
-TEST_F(Ecogen, ManyInAMetre) {
-  page_["terrain"] = Json{{"size", {1, 1}}};
-  page_["types"][0]["count"] = 100000;
-  page_["types"][0]["scale"] = 1e-6;
-  ASSERT_EQ(run().status, 0);
-  EXPECT_EQ(load().instance_count(), 100050u);
-}
-
-TEST_F(Ecogen, AOneTriangleTerrainIsPlantedOnTheTriangle) {
-  page_["terrain"] = Json::parse(
-      R"({"samples": [2, 2], "nurbs": {"degree": [1, 1], "points": [[[0,0,0],[0,0,0]],[[0,0,40],[40,8,40]]]}})");
+TEST_F(Ecogen, SeedsMayBeAsLargeAsTheyAreInTheFile) {
+  page_["seed"] = std::numeric_limits<std::uint64_t>::max();
   ASSERT_EQ(run().status, 0) << run().err;
-  const Ecosystem eco = load();
-  EXPECT_EQ(eco.instance_count(), 250u);
-  for (const InstanceBlock& b : eco.blocks)
-    for (std::size_t i = b.first; i < b.first + b.count; ++i) {
-      const Double3 p = instance_of(eco, b, i).position;
-      EXPECT_LE(p.x, p.z + 1e-3);
-      EXPECT_NEAR(p.y, p.x / 5, 1e-4);
-    }
-}
-
-TEST_F(Ecogen, MapsOfOddChannelsAndDepthsSteerDensity) {
-  // Half of the ground is black, in a PNG of RGBA whose alpha says the opposite.
-  Image image{.width = 10, .height = 4, .rgba = std::vector<std::uint8_t>(160), .has_alpha = true};
-  for (std::size_t i = 0; i < 40; ++i) {
-    const bool west = i % 10 < 5;
-    for (std::size_t c = 0; c < 3; ++c) image.rgba[4 * i + c] = west ? 255 : 0;
-    image.rgba[4 * i + 3] = west ? 0 : 255;
-  }
-  for (const char* name : {"m.png", "m.tif", "m.exr"}) {
-    ASSERT_TRUE(write_image(file(name), image));
-    for (const char* channel : {"r", "a"}) {
-      if (std::string(name) == "m.exr" && channel[0] == 'r') continue;  // premultiplied: black everywhere
-      page_["types"][0]["density"] = {{"file", name}, {"channel", channel}};
-      const Outcome o = run();
-      ASSERT_EQ(o.status, 0) << o.err;
-      const Ecosystem eco = load();
-      for (const InstanceBlock& b : eco.blocks)
-        for (std::size_t i = b.first; i < b.first + b.count && eco.types[b.type].name == "a"; ++i)
-          EXPECT_EQ(instance_of(eco, b, i).position.x < 30.001, channel[0] == 'r') << name << channel;
-    }
-  }
-  page_["types"][0]["density"] = {{"file", "m.png"}, {"channel", 7}};
+  EXPECT_EQ(load().seed, std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(Json::parse(load().provenance)["options"]["seed"], std::numeric_limits<std::uint64_t>::max());
   std::filesystem::remove(file("out.eco"));
-  EXPECT_NE(refusal().find("has 4 channels, none is '7'"), std::string::npos);
-  page_["types"][0]["density"] = "page.json";
-  EXPECT_NE(refusal().find("page.json"), std::string::npos);
+  page_["types"][0]["count"] = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_NE(refusal().find(
+                "types[0].count: 18446744073709551615 is not allowed here; give it a whole number from 0"),
+            std::string::npos);
 }
 
-// Where only one of the types has its clusters it gets all of the mix: what is shared out is what is planted.
-TEST_F(Ecogen, AMixWithClustersIsSharedOutByTheClustersThatItIsPlantedBy) {
-  const auto half = [&](const char* name, bool west) {
-    Image image{.width = 64, .height = 64, .rgba = std::vector<std::uint8_t>(4 * 64 * 64, 255)};
-    for (std::size_t i = 0; i < 64 * 64; ++i)
-      for (std::size_t c = 0; c < 3; ++c) image.rgba[4 * i + c] = (i % 64 < 32) == west ? 255 : 0;
-    ASSERT_TRUE(write_image(file(name), image));
-  };
-  half("west.png", true), half("east.png", false);
-  for (auto& t : page_["types"]) t.erase("count"), t["clusters"] = {{"count", 6}, {"radius", 4}};
-  page_["mixes"] = Json::parse(R"([{"count": 500, "parts": [{"type": "a", "share": "west.png"},
-                                                             {"type": "b", "share": "east.png"}]}])");
-  for (int seed = 0; seed < 6; ++seed) {
-    page_["seed"] = seed;
-    const Outcome o = run();
-    ASSERT_EQ(o.status, 0) << o.err;
-    EXPECT_EQ(load().instance_count(), 500u);
-  }
+TEST_F(Ecogen, AnUnreadableTextureOfAMaterialThatNothingIsMadeOfIsWarnedOf) {
+  page_["materials"][1]["texture"] = "none.png";
+  const Outcome o = run();
+  EXPECT_EQ(o.status, 0);
+  EXPECT_NE(o.err.find("none.png: materials[1].texture: "), std::string::npos) << o.err;
+  EXPECT_EQ(line_count(o.err), 1u) << o.err;
 }
 
-// By itself the footprint is what the crown reaches when it is turned: one that leans reaches farther.
-TEST_F(Ecogen, TheCrownsReachCountsTurningAndLeaning) {
-  page_["types"].erase(1);
-  page_["types"][0].erase("tilt");
-  const auto box = TreeFile::open(file("a.stree"))->header().bounds;
-  const double x = std::max(std::abs(double{box.min.x}), std::abs(double{box.max.x})),
-               z = std::max(std::abs(double{box.min.z}), std::abs(double{box.max.z}));
-  // 200 in cells of 60 / 15 by 40 / 15 m, upright: the corner of the box just fits, or just does not.
-  const double fits = 40 / 15.0 / 2 / std::hypot(x, z);
-  page_["types"][0]["scale"] = 0.999 * fits;
-  EXPECT_EQ(run().err.find("larger than their cell"), std::string::npos);
-  page_["types"][0]["tilt"] = {{"pitch", 10}};
-  EXPECT_NE(run().err.find("200 of 200 are larger than their cell"), std::string::npos);
-  page_["types"][0].erase("tilt");
-  page_["types"][0]["scale"] = 1.001 * fits;
-  EXPECT_NE(run().err.find("200 of 200 are larger than their cell"), std::string::npos);
+TEST_F(Ecogen, TintsGoIntoAGlbAndNowhereElse) {
+  page_["types"][0]["instances"] = Json::parse(R"([{"x": 5, "z": 5, "tint": [255, 0, 188]}])");
+  const Outcome o = run({"--export", file("n.glb")});
+  ASSERT_EQ(o.status, 0);
+  EXPECT_EQ(o.err, "");
+  const std::string glb = read_text(file("n.glb"));
+  EXPECT_NE(glb.find("\"_COLOR_0\""), std::string::npos);
+  EXPECT_NE(run({"--export", file("n.obj")}).err.find("n.obj: tints have no place in it"), std::string::npos);
+  EXPECT_NE(run({"--export", file("n.glb"), "--glb-nodes"}).err.find("n.glb: tints have no place"),
+            std::string::npos);
+}
+
+TEST_F(Ecogen, TinyScalesComeBackFromCsv) {
+  page_["types"][0]["scale"] = 5e-8;
+  ASSERT_EQ(run({"--export", file("i.csv")}).status, 0);
+  page_["types"][0]["count"] = page_["types"][1]["count"] = 0;
+  const Outcome o = run({"--instances", file("i.csv")});
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(load().instance_count(), 250u);
+  write_text(file("i.csv"), "type,x,z,scale\na,1,1,0\n");
+  EXPECT_NE(run({"--instances", file("i.csv")})
+                .err.find("line 2: scale '0' is not allowed; give it a number above 0"),
+            std::string::npos);
 }
 
 TEST_F(Ecogen, ErrorsOfFilesNameTheirPlaceInThePage) {
@@ -262,75 +223,6 @@ TEST_F(Ecogen, OptionsThatMeanNothingTogetherAreRefused) {
   const Outcome o = run_process({"treedump", file("out.eco"), file("out.eco"), "--diff", "--tolerance", "1"});
   EXPECT_EQ(o.status, 2);
   EXPECT_EQ(line_count(o.err), 1u) << o.err;
-}
-
-TEST_F(Ecogen, DiscsByHandThatOverlapAreWarnedOf) {
-  page_["types"][0]["spacing"] = 1;
-  page_["types"][0]["count"] = 1;
-  page_["types"][0]["instances"] = Json::parse(R"([{"x": 5, "z": 5}, {"x": 6, "z": 5}, {"x": 20, "z": 5}])");
-  const Outcome o = run();
-  EXPECT_EQ(o.status, 0);
-  EXPECT_NE(o.err.find("types[0] (a): 1 by hand overlap others by hand"), std::string::npos) << o.err;
-}
-
-TEST_F(Ecogen, SpacedTypesKeepOffTheFeetThatTheyAreToAvoid) {
-  page_["types"] = Json::parse(
-      R"([{"name": "a", "tree": "a.stree", "count": 300, "scale": 0.01, "footprint": 0},
-          {"name": "b", "tree": "b.tree", "count": 60, "scale": {"min": 0.5, "max": 1.5}, "spacing": 1, "avoid": ["a"]}])");
-  const auto nearest = [&] {
-    const Ecosystem eco = load();
-    std::vector<Instance> all;
-    for (const InstanceBlock& b : eco.blocks)
-      for (std::size_t i = b.first; i < b.first + b.count; ++i) all.push_back(instance_of(eco, b, i));
-    double least = 1e9;
-    for (const Instance& b : all)
-      for (const Instance& a : all)
-        if (b.type == 1 && a.type == 0)
-          least =
-              std::min(least, std::hypot(a.position.x - b.position.x, a.position.z - b.position.z) / b.scale);
-    return least;
-  };
-  ASSERT_EQ(run().status, 0);
-  EXPECT_GE(nearest(), 1 - 1e-4);
-  page_["types"][1].erase("avoid");
-  ASSERT_EQ(run().status, 0);
-  EXPECT_LT(nearest(), 0.9);  // nobody asked for it
-  page_["types"][1]["avoid"] = {"aa"};
-  std::filesystem::remove(file("out.eco"));
-  EXPECT_NE(refusal().find("types[1].avoid[0]: there is no type called 'aa'"), std::string::npos);
-  page_["types"][1]["avoid"] = {"a"};
-  page_["types"][1].erase("spacing");
-  EXPECT_NE(refusal().find("types[1].avoid: 'b' has no spacing"), std::string::npos);
-}
-
-TEST_F(Ecogen, TreesLargerThanTheirCellsAreWarnedOfAndShowNoGrid) {
-  page_["types"][0]["count"] = 600, page_["types"][0]["scale"] = 1, page_["types"][0]["footprint"] = 30;
-  page_["types"].erase(1);
-  const Outcome o = run();
-  ASSERT_EQ(o.status, 0);
-  EXPECT_NE(o.err.find("types[0] (a): 600 of 600 are larger than their cell"), std::string::npos) << o.err;
-  const Ecosystem eco = load();
-  std::set<double> columns;
-  for (const InstanceBlock& b : eco.blocks)
-    for (std::size_t i = b.first; i < b.first + b.count; ++i)
-      columns.insert(std::round(1000 * instance_of(eco, b, i).position.x));
-  EXPECT_GT(columns.size(), 500u);  // 25 when all stand in the middle
-}
-
-TEST_F(Ecogen, OneThatFloatsByHandDoesNotLiftTheOthers) {
-  page_["types"][0]["instances"] = Json::parse(R"([{"x": 5, "y": 77, "z": 5}])");
-  ASSERT_EQ(run({"--report", file("r.json")}).status, 0);
-  const Json report = Json::parse(read_text(file("r.json")));
-  for (const auto& error : report["errors"])
-    if (error["name"] == "foot off the ground") {
-      EXPECT_LE(error["max"].get<double>(), 1e-5);
-    }
-  const Ecosystem eco = load();
-  int floating = 0;
-  for (const InstanceBlock& b : eco.blocks)
-    for (std::size_t i = b.first; i < b.first + b.count; ++i)
-      floating += std::abs(instance_of(eco, b, i).position.y - 77) < 1e-3;
-  EXPECT_EQ(floating, 1);
 }
 
 TEST_F(Ecogen, PagesAndSchemasGoWhereTheyAreSentTo) {

@@ -275,7 +275,8 @@ class Builder {
 
   Result<Population> plant(const TerrainGround& ground) {
     Stage stage = context_.stage("plant");
-    auto population = populate(plans_, ground, area_of(scene_, ground), random_.fork(stream_plants));
+    auto population = populate(plans_, ground, area_of(scene_, ground), random_.fork(stream_plants),
+                               [&](double share) { stage.progress(share); });
     if (population) stage.items(population->instances.size(), "instances");
     return population;
   }
@@ -305,6 +306,7 @@ class Builder {
                                   plans_[t].count));
     }
     context_.report().tables.push_back(std::move(table));
+    tell_densities(plans_, p, context_);
     if (p.cells > 0)
       context_.report().tables.push_back({"jittered cells",
                                           {"cells", "instances moved on to a free cell",

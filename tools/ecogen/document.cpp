@@ -54,7 +54,7 @@ std::optional<std::vector<Step>> steps_of(std::string_view path) {
     }
     if (!path.empty() && path.front() == '.') {
       path.remove_prefix(1);
-      if (path.empty()) return std::nullopt;
+      if (path.empty() || path.front() == '[') return std::nullopt;
     }
   }
   if (steps.empty()) return std::nullopt;

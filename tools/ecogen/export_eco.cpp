@@ -9,6 +9,8 @@
 #include "tools/ecogen/map_legend.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -173,6 +175,16 @@ Result<Everything> read_meshes(const Ecosystem& eco, const fs::path& trees, Merg
   return all;
 }
 
+bool is_tinted(const Instance& i) {
+  return i.tint != std::array<std::uint8_t, 3>{255, 255, 255};
+}
+
+// Of a byte of sRGB.
+float linear(std::uint8_t value) {
+  const double v = value / 255.0;
+  return static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+}
+
 const auto k_same = [](const auto& v) { return v; };
 
 void add_terrain(const Ecosystem& eco, Merger& merger) {
@@ -192,11 +204,13 @@ Result<std::vector<ExportedFile>> glb_of(const Ecosystem& eco, const fs::path& t
     const auto& [type, trunk, leaf] = key;
     if (all->meshes[type].triangles.empty()) continue;
     NodeInstances n{object_name(eco, key), {}, {}, {}};
+    const bool tinted = std::any_of(instances.begin(), instances.end(), is_tinted);
     for (const Instance& i : instances) {
       n.translations.push_back(to_float(i.position - eco.origin));
       auto& r = n.rotations.emplace_back();
       for (std::size_t c = 0; c < 4; ++c) r[c] = static_cast<float>(i.rotation[c]);
       n.scales.push_back(static_cast<float>(i.scale));
+      if (tinted) n.colours.push_back({linear(i.tint[0]), linear(i.tint[1]), linear(i.tint[2])});
     }
     merger.add(all->meshes[type], n.node, k_same, k_same, material_under(all->first[type], trunk, leaf));
     nodes.push_back(std::move(n));
@@ -241,6 +255,16 @@ Result<std::vector<ExportedFile>> obj_of(const Ecosystem& eco, const fs::path& t
   return export_mesh(merger.take(trees, file.parent_path()), ExportFormat::obj, name);
 }
 
+void warn_of_tints(const Ecosystem& eco, const fs::path& file, Context& context) {
+  for (const InstanceBlock& b : eco.blocks)
+    for (std::size_t i = b.first; i < b.first + b.count; ++i)
+      if (is_tinted(instance_of(eco, b, i)))
+        return context.warn(
+            fmt::format("{}: tints have no place in it and were left out; a .glb has them by "
+                        "EXT_mesh_gpu_instancing, without --glb-nodes",
+                        file.string()));
+}
+
 Result<void> write_all(const std::vector<ExportedFile>& files, const fs::path& folder, Context& context) {
   for (const ExportedFile& f : files)
     if (auto done = context.write(folder / f.name, f.bytes); !done) return done;
@@ -257,16 +281,17 @@ Result<void> check_export(const fs::path& file) {
 }
 
 Result<void> export_ecosystem(const Ecosystem& eco, const fs::path& trees, const fs::path& file,
-                              Instancing form, Context& context) {
+                              Instancing form, ForestMap& map, Context& context) {
   Stage stage = context.stage(fmt::format("export {}", file.extension().string()));
   stage.items(eco.instance_count(), "instances");
   const std::string e = file.extension().string();
   if (e == ".csv") return context.write(file, instances_csv(eco));
   if (e == ".png") {
-    const auto png = encode_png(map_with_legend(eco));
+    const auto png = encode_png(map_with_legend(map));
     if (!png) return std::unexpected(png.error());
     return context.write(file, {reinterpret_cast<const char*>(png->data()), png->size()});
   }
+  if (e == ".obj" || form == Instancing::nodes) warn_of_tints(eco, file, context);
   const auto files = e == ".glb" ? glb_of(eco, trees, file, form) : obj_of(eco, trees, file);
   if (!files) return std::unexpected(files.error());
   return write_all(*files, file.parent_path(), context);

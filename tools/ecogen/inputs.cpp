@@ -20,20 +20,30 @@ constexpr std::string_view k_letters = "rgba";
 
 // Which channel a name means; luminance is -1, none such -2.
 int channel_of(const std::string& name, int channels) {
-  if (name.empty() || name == "y") return channels >= 3 ? -1 : 0;
+  const bool grey = channels < 3;  // with or without alpha
+  if (name.empty() || name == "y") return grey ? 0 : -1;
   const std::size_t letter = name.size() == 1 ? k_letters.find(name[0]) : std::string::npos;
-  // Of grey with alpha the second is alpha.
-  const int index = letter == std::string::npos    ? std::stoi(name)
-                    : channels == 2 && letter == 3 ? 1
-                                                   : static_cast<int>(letter);
+  int index = 0;
+  if (letter == std::string::npos)
+    index = std::stoi(name);
+  else if (!grey || letter == 0)
+    index = static_cast<int>(letter);
+  else
+    index = letter == 3 ? 1 : channels;  // no green or blue
   return index < channels ? index : -2;
+}
+
+std::string channels_text(int channels) {
+  if (channels == 1) return "one channel, grey (y or r)";
+  if (channels == 2) return "2 channels, grey (y or r) and alpha (a)";
+  return fmt::format("{} channels", channels);
 }
 
 Result<std::unique_ptr<ValueMap>> values_of(const FloatImage& image, const MapSource& source) {
   const int channel = channel_of(source.channel, image.channels);
   if (channel == -2)
     return refuse(source.file.string(),
-                  fmt::format("has {} channels, none is '{}'", image.channels, source.channel),
+                  fmt::format("has {}, none is '{}'", channels_text(image.channels), source.channel),
                   "name one that it has");
   auto map = std::make_unique<ValueMap>();
   map->width = static_cast<std::uint32_t>(image.width);

@@ -1,6 +1,7 @@
 #include "tools/ecogen/leave_out.h"
 
 #include "lib/formats/ecosystem/ecosystem_header.h"
+#include "lib/formats/import/image.h"
 #include "lib/formats/materials.h"
 #include "lib/runtime/block_stream.h"
 #include "tools/ecogen/pack_tree.h"
@@ -77,15 +78,24 @@ void drop_materials(std::vector<Instance>& instances, Built& built) {
   for (Instance& i : instances) renumber(i.trunk_material), renumber(i.leaf_material);
 }
 
-void drop_textures(bool pack, Built& built) {
+// What nobody needs is no reason to refuse the page; a name that is wrong is still worth a word.
+void warn_of_unreadable(const fs::path& texture, const std::string& place, Context& context) {
+  if (const auto image = read_image(texture); !image)
+    context.warn(fmt::format("{}: {}: {}; it was left out, because nothing is made of its material",
+                             texture.string(), place, image.error().what));
+}
+
+void drop_textures(bool pack, Built& built, Context& context) {
   Ecosystem& e = built.eco;
   std::vector<bool> used(e.textures.size());
   for (const Material& m : e.materials) mark(used, m.texture);
-  for (std::size_t t = 0; t < used.size(); ++t)
-    if (!used[t])
-      built.left_out.push_back(without_file(fmt::format("texture {}", e.textures[t].uri),
-                                            "no material that is used has it", k_texture_record,
-                                            size_of(e.textures[t].uri), pack));
+  for (std::size_t t = 0; t < used.size(); ++t) {
+    if (used[t]) continue;
+    warn_of_unreadable(e.textures[t].uri, built.texture_places[t], context);
+    built.left_out.push_back(without_file(fmt::format("texture {}", e.textures[t].uri),
+                                          "no material that is used has it", k_texture_record,
+                                          size_of(e.textures[t].uri), pack));
+  }
   keep(built.texture_places, used);
   const auto number = keep(e.textures, used);
   for (Material& m : e.materials)
@@ -147,7 +157,7 @@ Result<void> leave_out(std::vector<Instance>& instances, const BuildOptions& opt
                        Context& context) {
   drop_types(instances, options.pack, built);
   drop_materials(instances, built);
-  drop_textures(options.pack, built);
+  drop_textures(options.pack, built, context);
   const std::vector<TreeUse> uses = uses_of(instances, built);
   drop_volumes(uses, built, context);
   if (auto done = resolve_trees(uses, options, built, context); !done) return done;

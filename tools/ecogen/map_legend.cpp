@@ -2,7 +2,6 @@
 
 #include "lib/analysis/ecosystem/ground.h"
 #include "lib/formats/export/html_text.h"
-#include "tools/ecogen/map_picture.h"
 #include "tools/picture/base64.h"
 #include "tools/picture/text.h"
 
@@ -115,9 +114,9 @@ void draw_panel(Image& image, const Legend& l, int x) {
 
 }  // namespace
 
-Image map_with_legend(const Ecosystem& eco) {
-  const Image map = map_picture(eco);
-  const Legend legend = legend_of(eco, map.width);
+Image map_with_legend(ForestMap& drawn) {
+  const Image& map = drawn.image();
+  const Legend legend = legend_of(drawn.ecosystem(), map.width);
   Image out;
   out.width = map.width + panel_width(legend);
   out.height = std::max(map.height, panel_height(legend));
@@ -130,11 +129,11 @@ Image map_with_legend(const Ecosystem& eco) {
   return out;
 }
 
-Result<ReportPicture> map_for_page(const Ecosystem& eco) {
-  const Image map = map_picture(eco);
+Result<ReportPicture> map_for_page(ForestMap& drawn) {
+  const Image& map = drawn.image();
   const auto png = encode_png(map);
   if (!png) return std::unexpected(png.error());
-  const Legend legend = legend_of(eco, map.width);
+  const Legend legend = legend_of(drawn.ecosystem(), map.width);
   const int x = map.width + k_margin, width = map.width + 420,
             height = std::max(map.height, panel_height(legend));
   std::string svg = fmt::format(

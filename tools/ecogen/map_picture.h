@@ -12,4 +12,19 @@ Double3 type_colour(std::size_t type);
 // The longer side has 1024 pixels. +X is to the right, +Z down, as on the maps.
 Image map_picture(const Ecosystem& eco);
 
+// The map of an ecosystem, drawn when it is asked for first.
+class ForestMap {
+ public:
+  explicit ForestMap(const Ecosystem& eco) : eco_(eco) {}
+  const Ecosystem& ecosystem() const { return eco_; }
+  const Image& image() {
+    if (image_.rgba.empty()) image_ = map_picture(eco_);
+    return image_;
+  }
+
+ private:
+  const Ecosystem& eco_;
+  Image image_;
+};
+
 }  // namespace copse::ecogen

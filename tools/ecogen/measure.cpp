@@ -7,11 +7,15 @@
 #include <cmath>
 #include <vector>
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 namespace copse::ecogen {
 namespace {
+
+// What the histogram of a density may be off by, besides the trees that a border between two parts cuts off.
+constexpr double k_histogram_error = 0.02;
 
 constexpr std::size_t k_most_samples = 20000;  // the largest of so many is known well enough
 
@@ -32,6 +36,34 @@ ErrorRecord record(std::string name, std::string unit, std::string reference, st
 }
 
 }  // namespace
+
+void tell_densities(std::span<const TypePlan> plans, const Population& population, Context& context) {
+  Table table{"density and spacing",
+              {"type", "of the largest density", "asked for", "planted", "ground under discs"},
+              {}};
+  for (std::size_t t = 0; t < plans.size(); ++t) {
+    const std::vector<DensityShare>& shares = population.types[t].by_density;
+    double asked = 0, covered = 0;
+    std::uint64_t got = 0;
+    for (const DensityShare& s : shares) {
+      table.rows.push_back({plans[t].name, fmt::format("{:.3g} to {:.3g}", s.from, s.to),
+                            fmt::format("{:.1f}", s.asked), std::to_string(s.got),
+                            fmt::format("{:.0f} %", 100 * s.covered)});
+      if (static_cast<double>(s.got) >= s.asked * (1 - k_histogram_error) - 1) continue;
+      asked += s.asked;
+      got += s.got;
+      covered = std::max(covered, s.covered);
+    }
+    const double noise = 2 * static_cast<double>(shares.size()) / static_cast<double>(plans[t].count);
+    if (asked > 0 && histogram_error(shares) > k_histogram_error + noise)
+      context.warn(fmt::format(
+          "{}: where its density is highest the ground is full: {} stand there, the density asks for {:.0f} "
+          "(discs cover up to {:.0f} % of it, at random they can about 55 %); the others stand where it is "
+          "thinner; lower count, spacing or scale, or the map's contrast",
+          plans[t].name, got, asked, 100 * covered));
+  }
+  if (!table.rows.empty()) context.report().tables.push_back(std::move(table));
+}
 
 void tell_tilts(const Population& population, const TerrainGround& ground, Context& context) {
   std::vector<double> values;

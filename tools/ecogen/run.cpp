@@ -84,10 +84,10 @@ void tell_left_out(const Built& built, Context& context) {
   if (!table.rows.empty()) context.report().tables.push_back(std::move(table));
 }
 
-Result<void> draw_map(const Ecosystem& eco, Context& context) {
+Result<void> draw_map(ForestMap& map, Context& context) {
   if (context.options().html.empty()) return {};
   Stage stage = context.stage("map");
-  auto picture = map_for_page(eco);
+  auto picture = map_for_page(map);
   if (!picture) return std::unexpected(picture.error());
   context.report().pictures.push_back(std::move(*picture));
   return {};
@@ -137,13 +137,15 @@ Result<void> make(const Options& options, Context& context) {
                      context);
   if (!built) return std::unexpected(built.error());
   tell_left_out(*built, context);
-  if (auto drawn = draw_map(built->eco, context); !drawn) return drawn;
+  ForestMap map(built->eco);
+  if (auto drawn = draw_map(map, context); !drawn) return drawn;
   auto told = provenance(options, *scene, built->sources);
   if (!told) return std::unexpected(told.error());
   built->eco.provenance = std::move(*told);
   for (const fs::path& file : options.exports)
-    if (auto done = export_ecosystem(built->eco, options.output.parent_path(), file,
-                                     options.glb_nodes ? Instancing::nodes : Instancing::extension, context);
+    if (auto done =
+            export_ecosystem(built->eco, options.output.parent_path(), file,
+                             options.glb_nodes ? Instancing::nodes : Instancing::extension, map, context);
         !done)
       return done;
   Stage stage = context.stage("write");

@@ -206,6 +206,9 @@ class Reader {
     if (j.contains("tilt")) tilt(j["tilt"], path + ".tilt", t);
     if (j.contains("scale")) t.scale = range(j["scale"], path + ".scale", 1);
     t.scale_map = map(j, "scale_map");
+    if (t.scale_map && !(t.scale.min < t.scale.max))
+      refuse_at(path + ".scale_map", "scale has no range that it could choose from",
+                "give scale a min and a max, such as {\"min\": 0.5, \"max\": 1}");
     if (j.contains("tint_map")) t.tint_map = file(j["tint_map"]);
     t.trunk_material = material(j, "trunk_material", path);
     t.leaf_material = material(j, "leaf_material", path);

@@ -4,6 +4,8 @@
 #include "tools/ecogen/texts.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -123,7 +125,9 @@ std::string allowed(const Plain& schema) {
   if (type == "string")
     return fmt::format("a text{}", length_text(s, "minLength", "maxLength", "characters"));
   if (type == "boolean") return "true or false";
-  if (type == "array") return fmt::format("a list{}", length_text(s, "minItems", "maxItems", "elements"));
+  if (type == "array")
+    return fmt::format("a list{}{}", length_text(s, "minItems", "maxItems", "elements"),
+                       s.value("uniqueItems", false) ? ", none of them twice" : "");
   if (type == "object") return fmt::format("an object with {}", fmt::join(known_keys(s), ", "));
   return type;
 }
@@ -194,6 +198,22 @@ const valijson::Schema& compiled_schema() {
   return *compiled;
 }
 
+// The document as valijson can take it: it reads whole numbers as signed ones, so those above all of them,
+// which a seed may be, become the largest of these. No other limit of the schema lies there.
+Plain within_signed(Plain document) {
+  constexpr auto k_most = std::numeric_limits<std::int64_t>::max();
+  std::vector<Plain*> open{&document};
+  while (!open.empty()) {
+    Plain& at = *open.back();
+    open.pop_back();
+    if (at.is_structured())
+      for (Plain& inside : at) open.push_back(&inside);
+    else if (at.is_number_unsigned() && at.get<std::uint64_t>() > std::uint64_t{k_most})
+      at = k_most;
+  }
+  return document;
+}
+
 }  // namespace
 
 Result<void> validate(const Json& document, const std::string& file) {
@@ -201,7 +221,8 @@ Result<void> validate(const Json& document, const std::string& file) {
   if (auto good = check_keys({"", &plain, &schema_json()}, file); !good) return good;
   valijson::Validator validator;
   valijson::ValidationResults results;
-  const valijson::adapters::NlohmannJsonAdapter adapter(plain);
+  const Plain readable = within_signed(plain);
+  const valijson::adapters::NlohmannJsonAdapter adapter(readable);
   if (validator.validate(compiled_schema(), adapter, &results)) return {};
   // The deepest place says most; of several as deep the first.
   valijson::ValidationResults::Error error, deepest;

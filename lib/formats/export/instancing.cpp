@@ -71,6 +71,8 @@ class Instancer {
         {"TRANSLATION", accessor(n.translations.data(), n.translations.size(), "VEC3", sizeof(Float3))},
         {"ROTATION", accessor(n.rotations.data(), n.rotations.size(), "VEC4", 4 * sizeof(float))},
         {"SCALE", accessor(scales.data(), scales.size(), "VEC3", sizeof(Float3))}};
+    if (!n.colours.empty())
+      attributes["_COLOR_0"] = accessor(n.colours.data(), n.colours.size(), "VEC3", sizeof(Float3));
     (*at)["extensions"][k_extension]["attributes"] = std::move(attributes);
     return true;
   }

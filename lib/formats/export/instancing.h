@@ -17,6 +17,10 @@ struct NodeInstances {
   std::vector<Float3> translations;
   std::vector<std::array<float, 4>> rotations;  // x, y, z, w; length 1
   std::vector<float> scales;
+  // Linear RGB by which the materials' colours are multiplied; empty: none. As attribute _COLOR_0, which the
+  // extension leaves to applications and three.js (r158) and Babylon.js (8.31) take for this; other readers
+  // pass over it, and nodes have no place for it.
+  std::vector<Float3> colours{};
 };
 
 enum class Instancing {
