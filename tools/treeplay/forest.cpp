@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 namespace copse::treeplay {
 
 namespace {
@@ -16,23 +19,18 @@ Float2 texcoord(const Double3& p, const Double3& origin, const Terrain& terrain)
   return {static_cast<float>((p.x + origin.x) / size), static_cast<float>(-(p.z + origin.z) / size)};
 }
 
-// Of every vertex, from the triangles round it; they point up.
-std::vector<Double3> normals_of(const Terrain& t) {
-  std::vector<Double3> normals(t.vertex_count());
-  for (std::uint32_t r = 0; r + 1 < t.rows; ++r)
-    for (std::uint32_t c = 0; c + 1 < t.columns; ++c) {
-      const std::uint32_t a = r * t.columns + c, b = a + 1, d = a + t.columns, e = d + 1;
-      const Double3 pa = t.vertex(c, r), pb = t.vertex(c + 1, r), pd = t.vertex(c, r + 1),
-                    pe = t.vertex(c + 1, r + 1);
-      const Double3 lower = cross(pd - pa, pe - pa), upper = cross(pe - pa, pb - pa);
-      for (const std::uint32_t i : {a, d, e}) normals[i] += lower;
-      for (const std::uint32_t i : {a, e, b}) normals[i] += upper;
+// Of a vertex, from the triangles round it; it points up.
+Double3 normal_of(const Terrain& t, std::uint32_t column, std::uint32_t row) {
+  Double3 normal;
+  for (std::uint32_t r = row == 0 ? 0 : row - 1; r <= row && r + 1 < t.rows; ++r)
+    for (std::uint32_t c = column == 0 ? 0 : column - 1; c <= column && c + 1 < t.columns; ++c) {
+      // Cell a b / d e is cut from a to e.
+      const Double3 a = t.vertex(c, r), e = t.vertex(c + 1, r + 1);
+      if (c == column || r != row) normal += cross(t.vertex(c, r + 1) - a, e - a);
+      if (c != column || r == row) normal += cross(e - a, t.vertex(c + 1, r) - a);
     }
-  for (Double3& n : normals) {
-    n = normalized(n);
-    if (n.y < 0) n = -n;
-  }
-  return normals;
+  normal = normalized(normal);
+  return normal.y < 0 ? -normal : normal;
 }
 
 }  // namespace
@@ -85,20 +83,21 @@ std::optional<double> highest_ground(const Terrain& t, double x, double z) {
 }
 
 ForestGround::ForestGround(const Terrain& terrain, const Double3& origin, TreeGeometry& geometry)
-    : tiles_(terrain),
-      columns_(terrain.columns),
+    : columns_(terrain.columns),
       rows_(terrain.rows),
       material_(terrain.material),
       first_(static_cast<std::uint32_t>(geometry.vertices.size())) {
   if (empty()) return;
-  const std::vector<Double3> normals = normals_of(terrain);
-  geometry.vertices.reserve(geometry.vertices.size() + terrain.vertex_count());
-  for (std::uint32_t r = 0; r < rows_; ++r)
+  geometry.vertices.resize(geometry.vertices.size() + terrain.vertex_count());
+  const auto take_row = [&](std::uint32_t r) {
     for (std::uint32_t c = 0; c < columns_; ++c) {
       const Double3 p = terrain.vertex(c, r) - origin;
-      geometry.vertices.push_back(
-          {to_float(p), to_float(normals[std::size_t{r} * columns_ + c]), texcoord(p, origin, terrain)});
+      geometry.vertices[first_ + std::size_t{r} * columns_ + c] = {
+          to_float(p), to_float(normal_of(terrain, c, r)), texcoord(p, origin, terrain)};
     }
+  };
+  tbb::parallel_invoke([&] { tiles_ = TerrainTiles(terrain); },
+                       [&] { tbb::parallel_for(std::uint32_t{0}, rows_, take_row); });
   first_ring_ = static_cast<std::uint32_t>(geometry.vertices.size());
   add_surroundings(geometry, terrain);
 }
