@@ -123,6 +123,10 @@ std::vector<std::uint32_t> held_until(const Spectrum& s, const Crown& crown) {
   return out;
 }
 
+auto held(std::vector<std::uint32_t> until) {
+  return [until](std::uint32_t leaf, std::uint32_t trunk_steps) { return until[leaf] <= trunk_steps; };
+}
+
 LodSpectra with(std::uint32_t trunk, const Crown& crown) {
   LodSpectra s;
   s.trunk = countdown(trunk), s.leaves = crown.spectrum;
@@ -152,7 +156,7 @@ TEST(Coupling, AtNoLevelBetweenAnyKnotsDoesALeafFloat) {
       const std::vector<std::uint32_t> until = held_until(s.leaves, leaves);
       // The picture would rather lose the trunk.
       LevelError error = [&](const TriedLevel& l) { return gone(l); };
-      couple(s, picture ? error : LevelError{}, {.held_until = until});
+      couple(s, picture ? error : LevelError{}, {.floats_by = held(until)});
       expect_schedule(s, s.schedule);
       expect_nothing_floats(s, leaves);
       EXPECT_EQ(s.schedule.back().triangles, 1u) << "the last leaf stays as long as the trunk does";
@@ -165,7 +169,7 @@ TEST(Coupling, AFewLeavesThatWouldFloatDoNotTakeTheCrownAlong) {
     const Crown leaves = crown(1000, 1000, seed);
     LodSpectra s = with(1000, leaves);
     const std::vector<std::uint32_t> until = held_until(s.leaves, leaves);
-    couple(s, nullptr, {.held_until = until});
+    couple(s, nullptr, {.floats_by = held(until)});
     for (const LodLevel& knot : s.schedule) {
       if (knot.triangles < 150) continue;
       EXPECT_GE(s.leaves.counts[knot.leaf_steps], knot.triangles / 4) << "of " << knot.triangles;
@@ -176,8 +180,7 @@ TEST(Coupling, AFewLeavesThatWouldFloatDoNotTakeTheCrownAlong) {
 TEST(Coupling, WhereNothingFloatsTheLeavesKeepTheirOrder) {
   const Crown leaves = crown(300, 400, 1);
   LodSpectra s = with(400, leaves);
-  const std::vector<std::uint32_t> never(s.leaves.elements.size(), k_none);
-  couple(s, nullptr, {.held_until = never});
+  couple(s, nullptr, {.floats_by = [](std::uint32_t, std::uint32_t) { return false; }});
   EXPECT_TRUE(std::ranges::equal(s.leaves.elements, leaves.spectrum.elements));
 }
 
@@ -188,8 +191,7 @@ TEST(Coupling, ALeafThatNeverGoesStopsTheTrunk) {
   const std::array<std::uint32_t, 3> corners{v, v, v};
   b.element(k_none, k_none, std::span(&corners, 1));
   s.leaves = b.finish();
-  const std::vector<std::uint32_t> until{60};
-  couple(s, nullptr, {.held_until = until});
+  couple(s, nullptr, {.floats_by = held({60})});
   EXPECT_LT(s.schedule.back().trunk_steps, 60u);
   EXPECT_GT(s.schedule.back().trunk_steps, 20u);
 }

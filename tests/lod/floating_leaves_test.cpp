@@ -62,24 +62,55 @@ TEST(FloatingLeaves, ALeafThatReachesTheStemDoesNotFloat) {
   EXPECT_EQ(FloatingLeaves(tree, s).count({.trunk_steps = s.trunk.steps() - 1}), 0u);
 }
 
-TEST(FloatingLeaves, HeldUntilIsTheFirstStepAtWhichItFloats) {
+// Every leaf alone: does it float at so many steps of the trunk?
+std::vector<std::vector<bool>> each_alone(const Tree& tree, const LodSpectra& s) {
+  std::vector<std::vector<bool>> out;
+  for (std::size_t e = 0; e < s.leaves.elements.size(); ++e) {
+    LodSpectra one = s;
+    std::vector<SpectrumElement> elements = s.leaves.elements.to_vector();
+    for (std::size_t other = 0; other < elements.size(); ++other)
+      elements[other].birth = other == e ? 0 : k_none, elements[other].death = k_none;
+    one.leaves.elements = elements;
+    const FloatingLeaves floating(tree, one);
+    out.emplace_back();
+    for (std::uint32_t steps = 0; steps <= s.trunk.steps(); ++steps)
+      out.back().push_back(floating.count({.trunk_steps = steps}) > 0);
+  }
+  return out;
+}
+
+TEST(FloatingLeaves, FloatsByIsWhetherItHasEverFloatedInWhateverOrderOneAsks) {
   Tree tree = stem_with_twigs(6, 8, 5);
   for (const double size : {0.02, 0.2, 0.6}) {
     const LodSpectra s = with_leaves(tree, size);
-    const FloatingLeaves floating(tree, s);
-    const std::vector<std::uint32_t> until = floating.held_until();
-    ASSERT_EQ(until.size(), s.leaves.elements.size());
-    for (std::uint32_t steps = 0; steps <= s.trunk.steps(); ++steps) {
-      std::uint64_t held = 0, drawn = 0;
-      for (std::size_t e = 0; e < until.size(); ++e)
-        if (s.leaves.elements[e].birth == 0) ++drawn, held += until[e] > steps;
-      EXPECT_LE(floating.count({.trunk_steps = steps}), drawn - held) << "what is held does not float";
-      const bool first = std::find(until.begin(), until.end(), steps) != until.end();
-      if (first) {
-        EXPECT_GT(floating.count({.trunk_steps = steps}), 0u);
+    const auto floats = each_alone(tree, s);
+    const auto last = static_cast<std::int64_t>(s.trunk.steps());
+    for (const std::int64_t stride : {1, -1, 7, -5}) {
+      FloatingLeaves floating(tree, s);
+      std::size_t ever = 0;
+      for (std::uint32_t e = 0; e < floats.size(); ++e) {
+        for (std::int64_t i = 0; i <= last; ++i) {
+          const auto steps = static_cast<std::size_t>(((i * stride) % (last + 1) + last + 1) % (last + 1));
+          const bool by = std::find(floats[e].begin(), floats[e].begin() + std::int64_t(steps) + 1, true) !=
+                          floats[e].begin() + std::int64_t(steps) + 1;
+          ASSERT_EQ(floating.floats_by(e, static_cast<std::uint32_t>(steps)), by) << e << " at " << steps;
+          ever += by;
+        }
       }
+      EXPECT_GT(ever, 0u) << "the trunk goes altogether";
     }
   }
+}
+
+TEST(FloatingLeaves, NothingFloatsByFullDetailHoweverFarItIs) {
+  Tree tree = stem_with_twigs(6, 8, 5);
+  LodSpectra s = with_leaves(tree, 0.02);
+  std::vector<SpectrumVertex> vertices = s.leaves.vertices.to_vector();
+  for (SpectrumVertex& v : vertices) v.position = v.position + Float3{40, 3, 0};
+  s.leaves.vertices = vertices;
+  FloatingLeaves floating(tree, s);
+  for (std::uint32_t e = 0; e < s.leaves.elements.size(); ++e) EXPECT_FALSE(floating.floats_by(e, 0));
+  EXPECT_TRUE(floating.floats_by(0, s.trunk.steps())) << "but without any trunk";
 }
 
 TEST(FloatingLeaves, OneWideGapInAGroupExcusesNoOtherLeaf) {
@@ -104,6 +135,7 @@ TEST(FloatingLeaves, OneWideGapInAGroupExcusesNoOtherLeaf) {
 
 TEST(FloatingLeaves, WithoutATrunkNothingFloats) {
   EXPECT_EQ(FloatingLeaves(Tree{}, LodSpectra{}).count({}), 0u);
+  EXPECT_FALSE(FloatingLeaves(Tree{}, LodSpectra{}).floats_by(0, 5));
 }
 
 }  // namespace

@@ -42,12 +42,11 @@ struct Four {
     std::sort(out.begin(), out.end());
     return out;
   }
-  std::vector<std::uint32_t> never() const { return std::vector(spectrum.elements.size(), k_none); }
-  std::vector<std::uint32_t> until(int which, std::uint32_t steps) const {
-    std::vector<std::uint32_t> out = never();
-    for (std::size_t e = 0; e < out.size(); ++e)
-      if (name(spectrum, e) == which) out[e] = steps;
-    return out;
+  // These must not be drawn after so many steps of the other part.
+  StepOrder::MustGo until(std::vector<int> which, std::uint32_t steps) const {
+    return [this, which, steps](std::uint32_t e, std::uint32_t other) {
+      return other >= steps && std::ranges::find(which, name(spectrum, e)) != which.end();
+    };
   }
   Spectrum spectrum;
 };
@@ -69,8 +68,7 @@ TEST(StepOrder, WithoutAnyWishStepsGoInTheirOrder) {
 
 TEST(StepOrder, WhatMustGoGoesFirst) {
   const Four four;
-  const auto until = four.until(Four::d, 10);
-  const StepOrder order(four.spectrum, until);
+  const StepOrder order(four.spectrum, four.until({Four::d}, 10));
   StepOrder::State state = order.full_detail();
   std::vector<StepOrder::Batch> batches;
   EXPECT_TRUE(order.take_forced(state, 9, batches));
@@ -82,10 +80,7 @@ TEST(StepOrder, WhatMustGoGoesFirst) {
 
 TEST(StepOrder, WhatMustNotBeDrawnIsPassedOver) {
   const Four four;
-  auto until = four.until(Four::d, 10);
-  const auto y = four.until(Four::y, 10);
-  for (std::size_t e = 0; e < until.size(); ++e) until[e] = std::min(until[e], y[e]);
-  const StepOrder order(four.spectrum, until);
+  const StepOrder order(four.spectrum, four.until({Four::d, Four::y}, 10));
   StepOrder::State state = order.full_detail();
   std::vector<StepOrder::Batch> batches;
   EXPECT_TRUE(order.take_forced(state, 10, batches));
@@ -98,8 +93,7 @@ TEST(StepOrder, WhatMustNotBeDrawnIsPassedOver) {
 
 TEST(StepOrder, WhatNeverGoesCannotBeTaken) {
   const Four four;
-  const auto until = four.until(Four::z, 1);
-  const StepOrder order(four.spectrum, until);
+  const StepOrder order(four.spectrum, four.until({Four::z}, 1));
   StepOrder::State state = order.full_detail();
   std::vector<StepOrder::Batch> batches;
   EXPECT_TRUE(order.take_forced(state, 5, batches)) << "it is not there yet";
@@ -109,8 +103,7 @@ TEST(StepOrder, WhatNeverGoesCannotBeTaken) {
 
 TEST(StepOrder, TheReorderedSpectrumDrawsWhatItsStateHad) {
   const Four four;
-  const auto until = four.until(Four::d, 10);
-  const StepOrder order(four.spectrum, until);
+  const StepOrder order(four.spectrum, four.until({Four::d}, 10));
   StepOrder::State state = order.full_detail();
   std::vector<StepOrder::Batch> batches;
   ASSERT_TRUE(order.take_forced(state, 10, batches));

@@ -90,10 +90,15 @@ Result<BakedSpectra> make_spectra(const Tree& tree, const Looks& looks, const Op
   }
   // Leaves wait for their twigs where twigs go one by one. Edge collapses move all of the trunk a little, and
   // pruned leaves go all over the crown: nothing could go on.
-  std::vector<std::uint32_t> held_until;
-  if (both && spectra.trunk.method == LodMethod::radii && spectra.leaves.method == LodMethod::collapse)
-    held_until = FloatingLeaves(tree, spectra).held_until();
-  couple(spectra, error, {.min_triangles = options.min_triangles, .held_until = held_until});
+  std::optional<FloatingLeaves> floating;
+  CouplingOptions coupling{.min_triangles = options.min_triangles};
+  if (both && spectra.trunk.method == LodMethod::radii && spectra.leaves.method == LodMethod::collapse) {
+    floating.emplace(tree, spectra);
+    coupling.floats_by = [&](std::uint32_t leaf, std::uint32_t steps) {
+      return floating->floats_by(leaf, steps);
+    };
+  }
+  couple(spectra, error, coupling);
   stage.items(spectra.schedule.size(), "knots");
   return baked;
 }

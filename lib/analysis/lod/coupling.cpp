@@ -31,10 +31,10 @@ struct Rank {
 
 class Coupler {
  public:
-  Coupler(const LodSpectra& spectra, const LevelError& error, std::span<const std::uint32_t> held_until)
+  Coupler(const LodSpectra& spectra, const LevelError& error, const StepOrder::MustGo& floats_by)
       : spectra_(spectra),
         error_(error),
-        order_(spectra.leaves, held_until),
+        order_(spectra.leaves, floats_by),
         state_(order_.full_detail()),
         knots_(1) {}
 
@@ -186,7 +186,7 @@ std::uint32_t step_with(const Spectrum& spectrum, std::uint64_t triangles) {
 }
 
 void couple(LodSpectra& spectra, const LevelError& error, const CouplingOptions& options) {
-  Coupler coupler(spectra, error, options.held_until);
+  Coupler coupler(spectra, error, options.floats_by);
   const std::uint64_t end = level_at(spectra, spectra.trunk.steps(), spectra.leaves.steps()).triangles;
   while (coupler.triangles() > std::max(end, options.min_triangles)) {
     const auto target =

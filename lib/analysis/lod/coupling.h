@@ -12,9 +12,9 @@ namespace copse {
 struct CouplingOptions {
   double knot_ratio = 0.75;         // of the triangles of the knot before
   std::uint64_t min_triangles = 0;  // no knot below
-  // Of every element of the leaves the number of the trunk's steps from which on it would float, k_none for
-  // never (FloatingLeaves::held_until); empty: nothing ever does.
-  std::span<const std::uint32_t> held_until{};
+  // Whether an element of the leaves would float after so many of the trunk's steps or fewer
+  // (FloatingLeaves::floats_by; StepOrder says how it is called). Without it nothing ever does.
+  std::function<bool(std::uint32_t element, std::uint32_t trunk_steps)> floats_by{};
 };
 
 // A level that is tried: the leaves need not be those of any step.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include <tbb/parallel_for.h>
@@ -17,6 +16,7 @@ using Corners = std::array<Double3, 3>;
 constexpr double k_visible_gap = 0.01;  // of the tree's height
 // What was a metre away does not look otherwise a hand farther off: the shell of a crown that is one leaf.
 constexpr double k_wider = 1.25;
+constexpr double k_anywhere = std::numeric_limits<double>::infinity();
 
 // Between the segments p q and a b, squared.
 double segment_square(const Double3& p, const Double3& q, const Double3& a, const Double3& b) {
@@ -140,18 +140,19 @@ class FloatingLeaves::DrawnTrunk {
     for (std::size_t i = 0; i < nodes_.size(); ++i) build(i, i + 1 < bottoms);
   }
 
-  // How far the leaf is from the nearest of all.
-  double gap(const Leaf& leaf) const {
-    double least = std::numeric_limits<double>::infinity();
+  // How far the leaf is from the nearest of all; of what is not nearer than `most` that.
+  double gap(const Leaf& leaf, double most) const {
+    double least = most * most;
     visit<false>(
         leaf, 0, [](const auto&) { return true; }, [&] { return least; },
         [&](const Piece&, double square) { return (least = square) > 0; });
     return std::sqrt(least);
   }
 
-  // The step that takes away the last of what is within `allowed` and drawn after `steps` steps; nothing when
-  // nothing is within.
-  std::optional<std::uint32_t> reached_until(const Leaf& leaf, double allowed, std::uint32_t steps) const {
+  // The step that takes away the last of what is within `allowed` and drawn after `steps` steps, or anything
+  // of it that is drawn after `enough` steps too; nothing when nothing is within.
+  std::optional<std::uint32_t> reached_until(const Leaf& leaf, double allowed, std::uint32_t steps,
+                                             std::uint32_t enough) const {
     std::optional<std::uint32_t> until;
     visit<true>(
         leaf, allowed * allowed,
@@ -159,7 +160,7 @@ class FloatingLeaves::DrawnTrunk {
           return part.birth <= steps && part.death > steps && (!until || part.death > *until);
         },
         [&] { return allowed * allowed; },
-        [&](const Piece& piece, double) { return (until = piece.death) != k_none; });
+        [&](const Piece& piece, double) { return (until = piece.death) <= enough; });
     return until;
   }
 
@@ -257,6 +258,7 @@ FloatingLeaves::FloatingLeaves(const Tree& tree, const LodSpectra& spectra) : sp
   if (spectra.trunk.elements.empty()) return;
   full_ = std::make_unique<const DrawnTrunk>(spectra.trunk, 0);
   drawn_ = std::make_unique<const DrawnTrunk>(spectra.trunk, spectra.trunk.steps());
+  known_.resize(spectra.leaves.elements.size());
   tolerance_ = k_visible_gap * tree.header.bounds.extent().y;
 }
 
@@ -269,27 +271,32 @@ std::uint64_t FloatingLeaves::count(const LodLevel& level) const {
   tbb::parallel_for(std::size_t{0}, floats.size(), [&](std::size_t e) {
     if (level.leaf_steps < elements[e].birth || level.leaf_steps >= elements[e].death) return;
     const Leaf leaf(spectra_.leaves, e);
-    floats[e] = !drawn_->reached(leaf, tolerance_, level.trunk_steps) &&
-                !drawn_->reached(leaf, k_wider * full_->gap(leaf) + tolerance_, level.trunk_steps);
+    floats[e] =
+        !drawn_->reached(leaf, tolerance_, level.trunk_steps) &&
+        !drawn_->reached(leaf, k_wider * full_->gap(leaf, k_anywhere) + tolerance_, level.trunk_steps);
   });
   return static_cast<std::uint64_t>(std::count(floats.begin(), floats.end(), 1));
 }
 
-std::vector<std::uint32_t> FloatingLeaves::held_until() const {
-  if (!drawn_) return {};
-  std::vector<std::uint32_t> out(spectra_.leaves.elements.size(), k_none);
-  tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t e) {
-    const Leaf leaf(spectra_.leaves, e);
-    const double allowed = k_wider * full_->gap(leaf) + tolerance_;
-    std::uint32_t steps = 0;
-    while (steps != k_none) {
-      const auto until = drawn_->reached_until(leaf, allowed, steps);
-      if (!until) break;
-      steps = *until;
+// Most leaves touch what bears them, or are borne by something else as near: how far they were at full detail
+// is asked last.
+bool FloatingLeaves::floats_by(std::uint32_t element, std::uint32_t trunk_steps) {
+  if (!drawn_) return false;
+  Known& known = known_[element];
+  if (known.until > trunk_steps || known.last) return known.until <= trunk_steps;
+  const Leaf leaf(spectra_.leaves, element);
+  while (known.until <= trunk_steps) {
+    const double allowed = std::max(known.allowed, tolerance_);
+    if (const auto until = drawn_->reached_until(leaf, allowed, known.until, trunk_steps)) {
+      known.until = *until;
+    } else if (known.allowed < 0) {
+      known.allowed = k_wider * full_->gap(leaf, known.until > 0 ? tolerance_ : k_anywhere) + tolerance_;
+    } else {
+      known.last = true;
+      return true;
     }
-    out[e] = steps;
-  });
-  return out;
+  }
+  return false;
 }
 
 }  // namespace copse

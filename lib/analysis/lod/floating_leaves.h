@@ -25,16 +25,24 @@ class FloatingLeaves {
   // Of the leaves that are drawn. O(log n) a leaf.
   std::uint64_t count(const LodLevel& level) const;
 
-  // Of every element of the leaves the first number of trunk steps after which it would float, at least 1;
-  // k_none when it never does. Empty without a trunk. O(log n) an element and form that the trunk near it
-  // takes.
-  std::vector<std::uint32_t> held_until() const;
+  // Whether an element of the leaves would float after so many of the trunk's steps or after fewer; never
+  // at full detail. What is found out is kept: asked again, or with fewer steps, it costs nothing. O(log n)
+  // for each form that the trunk near it takes in between. Elements may be asked about in parallel, each of
+  // them by one thread at a time.
+  bool floats_by(std::uint32_t element, std::uint32_t trunk_steps);
 
  private:
   class DrawnTrunk;
+  // What is known of an element.
+  struct Known {
+    double allowed = -1;      // how far it may be from the trunk; below 0: not yet known
+    std::uint32_t until = 0;  // it is held before so many steps,
+    bool last = false;        // and floats then
+  };
 
   const LodSpectra& spectra_;
   std::unique_ptr<const DrawnTrunk> full_, drawn_;  // of full detail; of all steps
+  std::vector<Known> known_;
   double tolerance_ = 0;
 };
 

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 namespace copse {
 namespace {
 
@@ -27,8 +29,8 @@ void sort_by_step(const Spectrum& s, Key key, std::vector<std::uint32_t>& first,
 
 }  // namespace
 
-StepOrder::StepOrder(const Spectrum& spectrum, std::span<const std::uint32_t> held_until)
-    : spectrum_(spectrum), held_until_(held_until) {
+StepOrder::StepOrder(const Spectrum& spectrum, MustGo must_go)
+    : spectrum_(spectrum), must_go_(std::move(must_go)) {
   sort_by_step(
       spectrum, [](const SpectrumElement& e) { return e.death; }, first_killed_, killed_);
   sort_by_step(
@@ -45,10 +47,6 @@ std::span<const std::uint32_t> StepOrder::born(std::uint32_t step) const {
 
 std::uint32_t StepOrder::width(std::uint32_t element) const {
   return spectrum_.first_triangle[element + 1] - spectrum_.first_triangle[element];
-}
-
-bool StepOrder::must_go(std::uint32_t element, std::uint32_t other) const {
-  return !held_until_.empty() && held_until_[element] <= other;
 }
 
 StepOrder::State StepOrder::full_detail() const {
@@ -105,7 +103,7 @@ bool StepOrder::take(State& state, std::uint32_t step, std::uint32_t other, std:
     batch.push_back(now);
     if (batch.size() > before + 1 && state.triangles < least) return give_up();
     for (const std::uint32_t e : born(now)) {
-      if (!must_go(e, other)) continue;
+      if (!must_go_ || !must_go_(e, other)) continue;
       if (spectrum_.elements[e].death == k_none) return give_up();
       later.push_back(spectrum_.elements[e].death);
     }
@@ -114,9 +112,14 @@ bool StepOrder::take(State& state, std::uint32_t step, std::uint32_t other, std:
 }
 
 bool StepOrder::take_forced(State& state, std::uint32_t other, std::vector<Batch>& batches) const {
-  if (held_until_.empty()) return true;
+  if (!must_go_) return true;
+  // What a batch makes beside has been asked about when it was taken.
+  std::vector<std::uint8_t> goes(state.drawn.size(), 0);
+  tbb::parallel_for(std::size_t{0}, goes.size(), [&](std::size_t e) {
+    goes[e] = state.drawn[e] && must_go_(static_cast<std::uint32_t>(e), other);
+  });
   for (std::uint32_t e = 0; e < state.drawn.size(); ++e) {
-    if (!state.drawn[e] || !must_go(e, other)) continue;
+    if (!goes[e] || !state.drawn[e]) continue;
     Batch batch;
     if (spectrum_.elements[e].death == k_none || !take(state, spectrum_.elements[e].death, other, 0, batch))
       return false;

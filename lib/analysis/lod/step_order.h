@@ -7,6 +7,7 @@
 #include "lib/formats/levels/spectrum.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,9 +18,11 @@ class StepOrder {
   // Steps that are taken as one: what one of them makes and another takes away is never drawn.
   using Batch = std::vector<std::uint32_t>;
 
-  // Keeps references. `held_until`: of every element the number of the other part's steps from which on it
-  // must not be drawn, k_none for never; empty: none has such a number.
-  StepOrder(const Spectrum& spectrum, std::span<const std::uint32_t> held_until);
+  // Whether an element must not be drawn after so many of the other part's steps; then after no more of them
+  // either. Called in parallel, but for each element by one thread.
+  using MustGo = std::function<bool(std::uint32_t element, std::uint32_t other)>;
+  // Keeps a reference to `spectrum`. Without `must_go` all may be drawn.
+  StepOrder(const Spectrum& spectrum, MustGo must_go);
 
   // What is drawn: which steps have been taken.
   struct State {
@@ -50,10 +53,9 @@ class StepOrder {
   std::span<const std::uint32_t> killed(std::uint32_t step) const;
   std::span<const std::uint32_t> born(std::uint32_t step) const;
   std::uint32_t width(std::uint32_t element) const;
-  bool must_go(std::uint32_t element, std::uint32_t other) const;
 
   const Spectrum& spectrum_;
-  std::span<const std::uint32_t> held_until_;
+  MustGo must_go_;
   std::vector<std::uint32_t> first_killed_, killed_, first_born_, born_;  // elements, step after step
 };
 
