@@ -52,6 +52,20 @@ TEST(PictureError, SimilarityIsSymmetricAndSeesStructureThatRmseDoesNot) {
   EXPECT_DOUBLE_EQ(picture_error(a, brighter).ssim, picture_error(brighter, a).ssim);
 }
 
+TEST(PictureError, RmseAloneIsTheSameBitForBit) {
+  Picture a = flat(40, 1), b = a;
+  for (std::size_t i = 0; i < a.colour.size(); ++i) {
+    const auto part = static_cast<float>(i % 7);
+    if (i % 3 != 0) a.colour[i] = {0.1f * part, 0.05f, 1 - 0.1f * part};
+    if (i % 5 != 0) b.colour[i] = a.colour[i];
+  }
+  EXPECT_GT(picture_rmse(a, b), 0);
+  EXPECT_EQ(picture_rmse(a, b), picture_error(a, b).rmse);
+  EXPECT_EQ(picture_rmse(a, a), 0);
+  EXPECT_EQ(picture_rmse(flat(8, 1), flat(9, 1)), 1);
+  EXPECT_EQ(picture_rmse({}, {}), 0);
+}
+
 TEST(PictureError, OfDifferentSizesIsComplete) {
   const PictureError e = picture_error(flat(8, 1), flat(9, 1));
   EXPECT_EQ(e.rmse, 1);

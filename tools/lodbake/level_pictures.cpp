@@ -77,7 +77,7 @@ double LevelPictures::error(const TriedLevel& level) const {
   const std::vector<OrthographicView> sides = views(size);
   double sum = 0;
   for (std::size_t i = 0; i < source_[size].size(); ++i) {
-    const double e = picture_error(draw_picture(mesh, looks_, sides[i], 2), source_[size][i]).rmse;
+    const double e = picture_rmse(draw_picture(mesh, looks_, sides[i], 2), source_[size][i]);
     sum += e * e;
   }
   return sides.empty() ? 0 : std::sqrt(sum / static_cast<double>(sides.size()));

@@ -57,17 +57,32 @@ inline Range centres(double low, double high, int size) {
   return {below + (l > below), above - (h < above)};
 }
 
-// Where a row at height y crosses the triangle: no pixel outside is looked at.
-inline Range crossing(const std::array<ScreenCorner, 3>& t, double y, int width) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (int i = 0; i < 3; ++i) {
-    const Double3 &a = t[i].at, &b = t[(i + 1) % 3].at;
-    if ((a.y <= y) == (b.y <= y)) continue;
-    const double x = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
-    low = std::min(low, x), high = std::max(high, x);
+// The edges of a triangle: no pixel outside is looked at. Divides once an edge, not once a row.
+class Edges {
+ public:
+  explicit Edges(const std::array<ScreenCorner, 3>& t) {
+    for (int i = 0; i < 3; ++i) {
+      const Double3 &a = t[i].at, &b = t[(i + 1) % 3].at;
+      edges_[i] = {a.x, a.y, b.y, a.y != b.y ? (b.x - a.x) / (b.y - a.y) : 0};
+    }
   }
-  return low <= high ? centres(low, high, width) : Range{0, -1};
-}
+  // Where a row at height y crosses the triangle.
+  Range crossing(double y, int width) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Edge& e : edges_) {
+      if ((e.y <= y) == (e.end <= y)) continue;
+      const double x = e.x + (y - e.y) * e.slope;
+      low = std::min(low, x), high = std::max(high, x);
+    }
+    return low <= high ? centres(low, high, width) : Range{0, -1};
+  }
+
+ private:
+  struct Edge {
+    double x, y, end, slope;
+  };
+  std::array<Edge, 3> edges_;
+};
 
 }  // namespace alpha_raster
 
@@ -79,14 +94,16 @@ void for_each_sample(const ScreenTriangle& triangle, int width, int height, Want
   const Double3 &a = t[0].at, &b = t[1].at, &c = t[2].at;
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (area == 0 || !std::isfinite(area)) return;
+  const double per_area = 1 / area;
+  const alpha_raster::Edges edges(t);
   const auto rows = alpha_raster::centres(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), height);
   for (int y = rows.first; y <= rows.last; ++y) {
     const double py = y + 0.5;
-    const auto columns = alpha_raster::crossing(t, py, width);
+    const auto columns = edges.crossing(py, width);
     for (int x = columns.first; x <= columns.last; ++x) {
       const double px = x + 0.5;
-      const double u = ((b.x - px) * (c.y - py) - (b.y - py) * (c.x - px)) / area;
-      const double v = ((c.x - px) * (a.y - py) - (c.y - py) * (a.x - px)) / area;
+      const double u = ((b.x - px) * (c.y - py) - (b.y - py) * (c.x - px)) * per_area;
+      const double v = ((c.x - px) * (a.y - py) - (c.y - py) * (a.x - px)) * per_area;
       const double w = 1 - u - v;
       const auto depth = static_cast<float>(u * a.z + v * b.z + w * c.z);
       const std::size_t pixel = static_cast<std::size_t>(y) * width + x;

@@ -104,7 +104,7 @@ LodJudge::LodJudge(const DrawnMesh& source, const Looks& looks, const LodQuality
 double LodJudge::rmse(const DrawnMesh& level) const {
   std::vector<double> squares(images_.size());
   tbb::parallel_for(std::size_t{0}, images_.size(), [&](std::size_t v) {
-    const double e = picture_error(images_[v], draw_picture(level, looks_, image_views_[v], 2)).rmse;
+    const double e = picture_rmse(images_[v], draw_picture(level, looks_, image_views_[v], 2));
     squares[v] = e * e;
   });
   return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) /

@@ -56,6 +56,12 @@ Picture draw_picture(const DrawnMesh& mesh, const Looks& looks, const Orthograph
   fine.width *= samples, fine.height *= samples, fine.pixel /= samples;
   const Samples seen = sample(mesh, looks, fine);
 
+  // Of most triangles many samples are seen, of some none.
+  std::vector<Float3> shades(mesh.triangles.size(), {-1, 0, 0});
+  const auto shade_of = [&](std::uint32_t t) {
+    if (shades[t].x < 0) shades[t] = shade(mesh, looks, t);
+    return shades[t];
+  };
   Picture out{view.width, view.height, {}, {}};
   const std::size_t n = static_cast<std::size_t>(view.width) * view.height;
   out.colour.resize(n), out.coverage.resize(n);
@@ -68,7 +74,7 @@ Picture draw_picture(const DrawnMesh& mesh, const Looks& looks, const Orthograph
         const std::size_t row = static_cast<std::size_t>(y * samples + j) * fine.width + x * samples;
         for (int i = 0; i < samples; ++i) {
           const std::uint32_t t = seen.triangle[row + i];
-          sum += t == k_none ? Float3{1, 1, 1} : shade(mesh, looks, t);
+          sum += t == k_none ? Float3{1, 1, 1} : shade_of(t);
           hits += t != k_none;
         }
       }

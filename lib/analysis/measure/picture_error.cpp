@@ -11,6 +11,19 @@ double to_srgb(double v) {
   return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
 }
 
+// Neighbours are often of one triangle, or of none.
+class Coder {
+ public:
+  const Double3& operator()(const Float3& linear) {
+    if (linear != last_) last_ = linear, coded_ = {to_srgb(linear.x), to_srgb(linear.y), to_srgb(linear.z)};
+    return coded_;
+  }
+
+ private:
+  Float3 last_{};
+  Double3 coded_{};
+};
+
 struct Coded {
   std::vector<Double3> rgb;
   std::vector<double> luma;
@@ -19,8 +32,9 @@ struct Coded {
 Coded code(const Picture& p) {
   Coded out;
   out.rgb.reserve(p.colour.size()), out.luma.reserve(p.colour.size());
+  Coder coder;
   for (const Float3& c : p.colour) {
-    out.rgb.push_back({to_srgb(c.x), to_srgb(c.y), to_srgb(c.z)});
+    out.rgb.push_back(coder(c));
     const Double3& s = out.rgb.back();
     out.luma.push_back(0.2126 * s.x + 0.7152 * s.y + 0.0722 * s.z);
   }
@@ -65,6 +79,19 @@ PictureError picture_error(const Picture& a, const Picture& b) {
     sum += dot(d, d);
   }
   return {std::sqrt(sum / (3.0 * static_cast<double>(p.rgb.size()))), similarity(p, q, a.width, a.height)};
+}
+
+double picture_rmse(const Picture& a, const Picture& b) {
+  if (a.width != b.width || a.height != b.height) return 1;
+  if (a.colour.empty()) return 0;
+  double sum = 0;
+  Coder p, q;
+  for (std::size_t i = 0; i < a.colour.size(); ++i) {
+    if (a.colour[i] == b.colour[i]) continue;
+    const Double3 d = p(a.colour[i]) - q(b.colour[i]);
+    sum += dot(d, d);
+  }
+  return std::sqrt(sum / (3.0 * static_cast<double>(a.colour.size())));
 }
 
 }  // namespace copse

@@ -14,5 +14,7 @@ struct PictureError {
 // quality assessment: from error visibility to structural similarity" (2004), with uniform windows and its
 // constants (0.01, 0.03). Pictures of different sizes have nothing in common: rmse 1, ssim 0. Linear.
 PictureError picture_error(const Picture& a, const Picture& b);
+// Its rmse alone, bit for bit: where both are the same nothing is coded, several times as fast.
+double picture_rmse(const Picture& a, const Picture& b);
 
 }  // namespace copse
