@@ -86,11 +86,14 @@ void FoliageLevels::choose(const Double3& eye, const Options& options, std::span
     // A whole number that rounding has pushed up a little stays what it is; not a number is full detail.
     const double rounded = std::isfinite(wanted) ? std::ceil(wanted - 1e-9 * cell.count) : cell.count;
     out[c].count = static_cast<std::uint32_t>(std::clamp<double>(rounded, 0, cell.count));
+    const bool fraction = options.shrinking && out[c].count > 0 && wanted < out[c].count;
+    out[c].last = fraction ? static_cast<float>(wanted - (out[c].count - 1)) : 1.0f;
+    const double shown = fraction ? wanted : out[c].count;
     // Leaves that no one sees projected nothing, so by default only those that the distance takes are made
     // good (erratum P5).
     const bool total = p.compensation == FoliageParameters::Compensation::total;
-    const double kept = total ? static_cast<double>(out[c].count) / cell.count
-                              : std::min(1.0, out[c].count / std::max(1e-300, cell.count * visible));
+    const double kept =
+        total ? shown / cell.count : std::min(1.0, shown / std::max(1e-300, cell.count * visible));
     out[c].enlargement = out[c].count == 0
                              ? 1.0f
                              : static_cast<float>(std::clamp(1 / kept, 1.0, double{p.largest_enlargement}));

@@ -33,6 +33,7 @@ ViewWeights view_weights(const FoliageCells& cells, const Double3& toward_eye);
 struct CellLevel {
   std::uint32_t count = 0;  // the first so many leaves of the cell
   float enlargement = 1;    // of a leaf's area; positions scale by its root about the anchor
+  float last = 1;           // of the last leaf's area so much is left, over 0: it shrinks before it goes
 };
 
 class FoliageLevels {
@@ -43,6 +44,9 @@ class FoliageLevels {
   struct Options {
     FoliageRamp ramp = FoliageRamp::linear;
     bool uniform = false;  // visibility counts as 1 everywhere
+    // The last leaf of a cell is drawn as large as the fraction of it that is left, so that nothing pops and
+    // area is kept between whole numbers of leaves too (the paper leaves that open). Otherwise whole leaves.
+    bool shrinking = true;
   };
   // The levels of all cells for an eye at `eye` (relative to the tree's origin). Inside the crown's sphere,
   // and fading out to twice its radius, everything is visible (erratum P18). out: one a cell. O(cells +

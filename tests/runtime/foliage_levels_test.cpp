@@ -92,19 +92,50 @@ TEST(FoliageLevels, UniformlyEveryCellHasTheShareOfItsDistance) {
   }
 }
 
+// Of a cell whose leaves have area 1.
+double shown_area(const CellLevel& cell) {
+  return cell.count > 0 ? (cell.count - 1.0 + double{cell.last}) * double{cell.enlargement} : 0;
+}
+
+TEST(FoliageLevels, NothingPopsWhileTheEyeMovesAway) {
+  const FoliageCells f = four_cells();
+  const FoliageLevels levels(f);
+  std::vector<CellLevel> before(4), now(4);
+  const double step = 0.003;  // metres: at most .003 leaves of a cell
+  levels.choose({1.5, 0, 30}, {}, before);
+  int gone = 0;
+  for (double z = 30 + step; z < 34; z += step) {
+    levels.choose({1.5, 0, z}, {}, now);
+    for (std::size_t c = 0; c < 4; ++c) {
+      ASSERT_GT(now[c].last, 0);
+      ASSERT_LE(now[c].last, 1);
+      // Of what is left of the last leaf at most as much is gone as the eye has moved, in leaves.
+      const double left = now[c].count - 1.0 + double{now[c].last},
+                   was = before[c].count - 1.0 + double{before[c].last};
+      ASSERT_NEAR(left, was, 0.01) << c << " at " << z;
+      ASSERT_NEAR(now[c].enlargement, before[c].enlargement, 1e-3);
+      gone += now[c].count < before[c].count;
+    }
+    before.swap(now);
+  }
+  EXPECT_GE(gone, 5) << "leaves have gone";
+}
+
 TEST(FoliageLevels, TheAreaOfWhatDistanceTakesIsKeptExactly) {
   FoliageCells f = four_cells();
   const FoliageLevels levels(f);
   std::vector<CellLevel> out(4);
-  levels.choose({1.5, 0, 60}, {.uniform = true}, out);
-  for (const CellLevel& cell : out) EXPECT_NEAR(cell.count * cell.enlargement, 100, 1e-4);
+  for (const bool shrinking : {false, true}) {
+    levels.choose({1.5, 0, 60}, {.uniform = true, .shrinking = shrinking}, out);
+    for (const CellLevel& cell : out) EXPECT_NEAR(shown_area(cell), 100, 1e-4);
+  }
   // What is hidden is not made good unless that is asked for.
   levels.choose({1.5, 0, 9.9}, {}, out);
   EXPECT_LT(out[0].count, 100u);
   EXPECT_NEAR(out[0].enlargement, 1, 1e-6);
   f.parameters.compensation = FoliageParameters::Compensation::total;
   levels.choose({1.5, 0, 9.9}, {}, out);
-  EXPECT_NEAR(out[0].count * out[0].enlargement, 100, 1e-4);
+  EXPECT_NEAR(shown_area(out[0]), 100, 1e-4);
   f.parameters.largest_enlargement = 1.5f;
   levels.choose({1.5, 0, 500}, {}, out);
   for (const CellLevel& cell : out) EXPECT_LE(cell.enlargement, 1.5f);

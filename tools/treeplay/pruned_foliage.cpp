@@ -40,8 +40,12 @@ void PrunedFoliage::select(const TreeGeometry& geometry, const Double3& eye, Fra
   levels_.choose(eye, {}, levels);
   std::vector<std::uint32_t> list(levels_.leaf_count());
   out.leaf_count = levels_.extract(levels, list);
-  std::vector<std::uint8_t> shown(cell_of_.size(), 0);
-  for (std::size_t i = 0; i < out.leaf_count; ++i) shown[list[i]] = 1;
+  std::vector<float> scale(cell_of_.size(), 0);  // of lengths; 0: not drawn
+  for (std::size_t i = 0; i < out.leaf_count; ++i)
+    scale[list[i]] = std::sqrt(levels[cell_of_[list[i]]].enlargement);
+  for (std::size_t c = 0; c < levels.size(); ++c)
+    if (levels[c].count > 0)
+      scale[cells_->order[cells_->cells[c].first + levels[c].count - 1]] *= std::sqrt(levels[c].last);
   out.leaves.assign(geometry.vertices.begin() + first_vertex_, geometry.vertices.end());
   out.indices.clear();
   out.ranges = geometry.ranges;
@@ -53,12 +57,11 @@ void PrunedFoliage::select(const TreeGeometry& geometry, const Double3& eye, Fra
       out.indices.insert(out.indices.end(), begin, begin + range.index_count);
     for (std::size_t t = 0; t < leaf_of_[r].size(); ++t) {
       const std::uint32_t leaf = leaf_of_[r][t];
-      if (!shown[leaf]) continue;
-      const float scale = std::sqrt(levels[cell_of_[leaf]].enlargement);
+      if (scale[leaf] == 0) continue;
       for (std::size_t c = 0; c < 3; ++c) {
         const std::uint32_t v = begin[static_cast<std::ptrdiff_t>(3 * t + c)];
         Float3& p = out.leaves[v - first_vertex_].position;
-        p = centres_[leaf] + (p - centres_[leaf]) * scale;
+        p = centres_[leaf] + (p - centres_[leaf]) * scale[leaf];
         out.indices.push_back(v);
       }
     }
