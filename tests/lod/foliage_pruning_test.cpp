@@ -70,7 +70,7 @@ TEST(FoliagePruning, AsASpectrumIsASequenceOfSubsetsThatKeepsTheArea) {
   const Spectrum s = pruned_spectrum(tree, f);
   EXPECT_EQ(s.method, LodMethod::prune);
   EXPECT_EQ(s.counts[0], 800u);
-  EXPECT_EQ(s.counts[s.steps()], 2u * f.cells.size()) << "one leaf a cell";
+  EXPECT_EQ(s.counts[s.steps()], 2u) << "one leaf";
   const double full = area(drawn_state(s, 0));
   std::set<std::array<float, 3>> before;
   for (std::uint32_t n = 0; n <= s.steps(); ++n) {
@@ -90,6 +90,42 @@ TEST(FoliagePruning, AsASpectrumIsASequenceOfSubsetsThatKeepsTheArea) {
     EXPECT_LE(lost, now.size() / 20) << "not a subset (but for rounding) at step " << n;
     before = now;
   }
+}
+
+TEST(FoliagePruning, ATenthAndAFiftiethOfTheLeavesHaveTheAreaOfAll) {
+  for (const double half : {0.02, 0.05, 0.1}) {
+    const Tree tree = LeafyTree{.leaves = 1000, .half = half}.make();
+    const Spectrum s =
+        pruned_spectrum(tree, prune_foliage(tree, {}, {.cells = 64, .views = 12, .resolution = 16}));
+    const double full = area(drawn_state(s, 0));
+    for (std::uint32_t n = 0; n <= s.steps(); ++n) {
+      if (s.counts[n] < s.counts[0] / (half < 0.1 ? 50 : 10)) break;  // larger ones do not fit
+      EXPECT_NEAR(area(drawn_state(s, n)) / full, 1, 1e-4) << half << ", " << s.counts[n];
+    }
+  }
+}
+
+TEST(FoliagePruning, FewerLeavesThanCellsAreLeftEvenlyOverTheCrown) {
+  std::vector<FoliageCell> cells(64);
+  for (std::uint32_t c = 0; c < 64; ++c) cells[c].first = 10 * c, cells[c].count = 10;
+  std::vector<std::uint32_t> before(64, 10);
+  for (double fraction = 1; fraction > 1e-4; fraction *= 0.9) {
+    const std::vector<std::uint32_t> shown = shown_cells(cells, fraction);
+    std::array<std::uint32_t, 4> quarters{};
+    std::uint32_t total = 0;
+    for (std::uint32_t c = 0; c < 64; ++c) {
+      EXPECT_LE(shown[c], before[c]) << "a subset";
+      quarters[c / 16] += shown[c], total += shown[c];
+    }
+    if (640 * fraction < 64) {
+      EXPECT_EQ(total, std::max(1.0, std::ceil(640 * fraction - 1e-9)));
+      const auto [least, most] = std::minmax_element(quarters.begin(), quarters.end());
+      EXPECT_LE(*most - *least, 1u) << total;
+    }
+    before = shown;
+  }
+  EXPECT_EQ(std::accumulate(before.begin(), before.end(), 0u), 1u);
+  EXPECT_TRUE(shown_cells({}, 0.5).empty());
 }
 
 TEST(FoliagePruning, IsTheSameForTheSameSeedAndAnotherForAnother) {

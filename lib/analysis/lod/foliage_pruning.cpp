@@ -2,6 +2,7 @@
 
 #include "lib/analysis/lod/cell_visibility.h"
 #include "lib/analysis/lod/foliage_cells_tree.h"
+#include "lib/analysis/lod/leaf_enlargement.h"
 #include "lib/analysis/lod/radius_ancestors.h"
 #include "lib/analysis/lod/spectrum_builder.h"
 #include "lib/formats/levels/part_triangles.h"
@@ -95,6 +96,7 @@ class Pruner {
       : tree_(tree),
         foliage_(foliage),
         part_(leaf_triangles(tree)),
+        enlargement_(tree, part_, foliage),
         builder_(LodMethod::prune),
         element_(tree.leaf_count(), k_none),
         radius_(tree.leaf_count(), k_none) {
@@ -104,61 +106,51 @@ class Pruner {
       for (std::uint32_t i = group.first; i < group.first + group.count; ++i)
         radius_[tree.leaves.order[i]] = ancestors.of_group()[g];
     }
-    for (std::uint32_t l = 0; l < tree.leaf_count(); ++l) area_.push_back(area(l));
+    DoubleBox box;
+    for (const SpectrumVertex& v : part_.vertices) box.grow(to_double(v.position));
+    const Double3 extent = box.empty() ? Double3{} : box.extent();
+    longest_ = std::max({extent.x, extent.y, extent.z}) / 2;
   }
 
   Spectrum run() {
     for (const SpectrumVertex& v : part_.vertices) builder_.vertex(v);
     for (std::uint32_t l = 0; l < element_.size(); ++l)
       element_[l] = builder_.element(material(l), radius_[l], faces(l));
-    shown_.assign(foliage_.cells.size(), 0);
-    for (std::size_t c = 0; c < shown_.size(); ++c) shown_[c] = foliage_.cells[c].count;
+    for (const FoliageCell& cell : foliage_.cells) shown_.push_back(cell.count);
+    factors_.assign(element_.size(), 1.0);
     for (int k = 1; k <= k_steps; ++k) fewer(std::exp2(-k / 4.0));
     return builder_.finish();
   }
 
  private:
-  // The next level, if any cell shows less in it. Its error: how far apart the leaves that are left stand in
-  // a cell.
+  // The next level, if any cell shows less in it. Its error: how far apart the leaves that are left stand.
   void fewer(double fraction) {
-    bool any = false;
-    double apart = 0;
-    for (std::size_t c = 0; c < shown_.size(); ++c) {
-      const FoliageCell& cell = foliage_.cells[c];
-      const std::uint32_t left = shown_leaves(cell.count, fraction);
-      if (left == cell.count) continue;
-      any = any || left < shown_[c];
-      apart = std::max(apart, longest(cell) / std::cbrt(double(left)));
+    const std::vector<std::uint32_t> shown = shown_cells(foliage_.cells, fraction);
+    if (shown == shown_) return;
+    double apart = 0, cells = 0;
+    for (std::size_t c = 0; c < shown.size(); ++c) {
+      if (shown[c] == 0) continue;
+      ++cells;
+      if (shown[c] < foliage_.cells[c].count)
+        apart = std::max(apart, longest(foliage_.cells[c]) / std::cbrt(double(shown[c])));
     }
-    if (!any) return;
+    if (cells < double(shown.size())) apart = std::max(apart, longest_ / std::cbrt(cells));
     builder_.step(apart);
-    for (std::size_t c = 0; c < shown_.size(); ++c) prune(c, shown_leaves(foliage_.cells[c].count, fraction));
+    const std::vector<double> factors = enlargement_.factors(shown);
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+      if (factors[i] == factors_[i]) continue;
+      const std::uint32_t leaf = foliage_.order[i];
+      builder_.remove(element_[leaf]);
+      if (factors[i] > 0) element_[leaf] = put(leaf, std::sqrt(factors[i]));
+    }
+    shown_ = shown, factors_ = factors;
   }
 
   static double longest(const FoliageCell& cell) {
     return std::max({cell.box.half_extents.x, cell.box.half_extents.y, cell.box.half_extents.z});
   }
-
-  void prune(std::size_t c, std::uint32_t left) {
-    if (left >= shown_[c]) return;
-    const FoliageCell& cell = foliage_.cells[c];
-    const auto leaves = foliage_.order.span().subspan(cell.first, cell.count);
-    double all = 0, kept = 0;
-    for (std::uint32_t i = 0; i < cell.count; ++i)
-      all += area_[leaves[i]], kept += i < left ? area_[leaves[i]] : 0;
-    const double grow = kept > 0 ? std::min<double>(all / kept, foliage_.parameters.largest_enlargement) : 1;
-    for (std::uint32_t i = 0; i < shown_[c]; ++i) builder_.remove(element_[leaves[i]]);
-    for (std::uint32_t i = 0; i < left; ++i) element_[leaves[i]] = put(leaves[i], std::sqrt(grow), cell);
-    shown_[c] = left;
-  }
-
-  std::uint32_t put(std::uint32_t leaf, double scale, const FoliageCell& cell) {
+  std::uint32_t put(std::uint32_t leaf, double scale) {
     const Double3 anchor = to_double(tree_.leaves.centres[leaf]);
-    double reach = 0;
-    for_each(leaf, [&](std::uint32_t v) {
-      reach = std::max(reach, distance(to_double(part_.vertices[v].position), anchor));
-    });
-    if (reach > 0) scale = std::clamp(longest(cell) / reach, 1.0, scale);
     std::uint32_t base = k_none;
     for_each(leaf, [&](std::uint32_t v) {
       SpectrumVertex vertex = part_.vertices[v];
@@ -186,22 +178,16 @@ class Pruner {
   std::uint32_t material(std::uint32_t leaf) const {
     return part_.materials[tree_.first_triangle_of_leaf(leaf)];
   }
-  double area(std::uint32_t leaf) const {
-    double sum = 0;
-    for (const auto& t : faces(leaf)) {
-      const Double3 a = to_double(part_.vertices[t[0]].position);
-      sum += 0.5 * length(cross(to_double(part_.vertices[t[1]].position) - a,
-                                to_double(part_.vertices[t[2]].position) - a));
-    }
-    return sum;
-  }
 
   const Tree& tree_;
   const FoliageCells& foliage_;
   PartTriangles part_;
+  LeafEnlargement enlargement_;
   SpectrumBuilder builder_;
-  std::vector<std::uint32_t> element_, radius_, shown_;
-  std::vector<double> area_;
+  std::vector<std::uint32_t> element_, radius_;  // of each leaf
+  std::vector<std::uint32_t> shown_;             // of each cell
+  std::vector<double> factors_;                  // of each place in the order
+  double longest_ = 0;                           // half extent of the crown
 };
 
 }  // namespace
@@ -231,6 +217,22 @@ std::uint32_t shown_leaves(std::uint32_t count, double fraction) {
   if (count == 0 || std::isnan(fraction)) return count;
   const double wanted = std::ceil(count * std::clamp(fraction, 0.0, 1.0) - 1e-9);
   return std::clamp(static_cast<std::uint32_t>(wanted), 1u, count);
+}
+
+std::vector<std::uint32_t> shown_cells(std::span<const FoliageCell> cells, double fraction) {
+  double leaves = 0;
+  std::vector<std::uint32_t> out;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+  for (std::uint32_t c = 0; c < cells.size(); ++c) {
+    leaves += cells[c].count;
+    out.push_back(shown_leaves(cells[c].count, fraction));
+    order.emplace_back(reversed(c), c);
+  }
+  const double left = std::max(1.0, std::ceil(leaves * fraction - 1e-9));
+  if (!(left < double(cells.size()))) return out;
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = static_cast<std::size_t>(left); i < order.size(); ++i) out[order[i].second] = 0;
+  return out;
 }
 
 Spectrum pruned_spectrum(const Tree& tree, const FoliageCells& foliage) {

@@ -12,6 +12,7 @@
 #include "lib/formats/tree/tree.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace copse {
@@ -23,7 +24,7 @@ struct PruningOptions {
   std::uint64_t seed = 0;
   double near = 0, far = 0;  // metres; 0, 0: 2 and 40 times the crown's radius
   double least = 0.05;
-  double largest_enlargement = 16;
+  double largest_enlargement = 64;
 };
 
 // Cells, order, views, visibility and parameters. Inside a cell the order is stratified: the leaves in the
@@ -34,10 +35,14 @@ FoliageCells prune_foliage(const Tree& tree, const Looks& looks, const PruningOp
 
 // How many leaves each cell shows at a fraction (hazard N13): ceil, at least 1.
 std::uint32_t shown_leaves(std::uint32_t count, double fraction);
+// The same for all cells; and when fewer leaves are to be left than there are cells, some cells show none, in
+// a stratified order of the cells too: for each number of them evenly over the crown. At least one leaf is
+// left.
+std::vector<std::uint32_t> shown_cells(std::span<const FoliageCell> cells, double fraction);
 
-// The same as a spectrum, all cells alike (001's uniform mode): at each step a cell shows the fraction of its
-// leaves that is 2^(1/4) smaller, each enlarged about its centre so that the cell keeps its area, by no more
-// than `largest_enlargement` and not beyond its cell's longest half extent.
+// The same as a spectrum, all cells alike (001's uniform mode): at each step the fraction of the leaves that
+// are left is 2^(1/4) smaller, each enlarged about its centre so that the crown keeps its area
+// (leaf_enlargement). Ends with one leaf.
 Spectrum pruned_spectrum(const Tree& tree, const FoliageCells& foliage);
 
 }  // namespace copse
