@@ -17,6 +17,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TREES = pathlib.Path(__file__).resolve().parent.parent.parent / "shared" / "trees"
+LAST = 200  # triangles of the last geometric level (lodbake --sweep)
 SPECIES = ["oak", "birch", "willow", "spruce"]
 
 
@@ -50,11 +51,39 @@ def bake(mesh, folder):
     return report, levels.stat().st_size - tree.stat().st_size, small.stat().st_size - tree.stat().st_size
 
 
-def show(name, mesh, folder, ratios):
+def show_last(report, lasts, name):
+    """The last geometric level, 200 triangles: the goal is 95 % of the leaf area, and a silhouette IoU of 0.8 or twice the best peer's."""
+    rows = table(report, "last geometric level")
+    peers = {}
+    for r in rows:
+        reached = float(r["Triangles"]) <= 1.15 * LAST
+        print(f"   last {r['Method']:28s} {r['Triangles']:>8s} leaf area {r['Leaf area'] or '-':>6s} coverage {r['Coverage']:>6s} "
+              f"IoU {r['Silhouette IoU']:>6s} RMSE {r['RMSE']:>7s} hull {r['Hull growth']:>6s}{'' if reached else ' stuck'}")
+        if reached and r["Method"].startswith(("meshopt", "gltfpack")):
+            peers[r["Method"]] = float(r["Silhouette IoU"])
+    for r in rows:
+        if r["Method"] == "copse":
+            lasts.append((name, int(r["Triangles"]), r["Leaf area"], float(r["Silhouette IoU"]), max(peers.values(), default=None)))
+
+
+def print_lasts(lasts):
+    print(f"\nlast geometric level, {LAST} triangles: tree, triangles, leaf area, silhouette IoU, the best peer's, ratio")
+    good = {"area": 0, "iou": 0}
+    leafy = [x for x in lasts if x[2]]
+    for name, triangles, area, iou, peer in lasts:
+        ratio = iou / peer if peer else math.inf
+        good["area"] += bool(area) and float(area) >= 0.95
+        good["iou"] += iou >= 0.8 or ratio >= 2
+        print(f"  {name:34s} {triangles:4d} {area or '-':>6s} {iou:6.3f} {'stuck' if peer is None else f'{peer:.3f}':>6s} {ratio:6.2f}")
+    print(f"  leaf area >= .95 on {good['area']} of {len(leafy)}; IoU >= .8 or twice the best peer's on {good['iou']} of {len(lasts)}")
+
+
+def show(name, mesh, folder, ratios, lasts):
     report, fast, small = bake(mesh, folder)
     speed = {s["name"]: s["items"] / s["seconds"] / 1e6 for s in report["stages"] if s["name"] in ("trunk", "leaves") and s["seconds"] > 0}
     print(f"\n{name}: trunk {speed.get('trunk', 0):.2f}, leaves {speed.get('leaves', 0):.2f} Mtri/s; spectra {fast} bytes fast, {small} small")
     rows = table(report, "sweep")
+    show_last(report, lasts, name)
     best = {}
     full = {r["Share"]: float(r["Triangles"]) / float(r["Share"]) for r in rows if r["Method"] == "copse" and float(r["Share"]) >= 0.5}
     whole = next(iter(full.values()), 0)
@@ -74,7 +103,7 @@ def show(name, mesh, folder, ratios):
 def main():
     wanted = sys.argv[1:]
     find_gltfpack()
-    ratios = {}
+    ratios, lasts = {}, []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         meshes = sorted(p for p in TREES.iterdir() if p.name.endswith((".obj", ".obj.gz"))) if TREES.exists() else []
@@ -85,12 +114,14 @@ def main():
                 meshes.append(grown)
         for mesh in meshes:
             if not wanted or any(mesh.name.startswith(w) for w in wanted):
-                show(mesh.name, mesh, folder, ratios)
+                show(mesh.name, mesh, folder, ratios, lasts)
     print("\nRMSE of the best peer / RMSE of copse, where a peer gets down to the triangles asked for")
     for share, r in ratios.items():
         reached = [x for x in r if x < math.inf]
         middle = f"median {statistics.median(reached):.2f}, least {min(reached):.2f}, better on {sum(x > 1 for x in reached)}, " if reached else ""
         print(f"  {share:>5s}: {middle}{len(reached)} of {len(r)} reached")
+    if lasts:
+        print_lasts(lasts)
 
 
 if __name__ == "__main__":

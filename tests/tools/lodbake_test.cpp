@@ -1,6 +1,5 @@
 #include "lib/formats/import/image.h"
 #include "lib/formats/import/import.h"
-#include "lib/formats/levels/spectrum_file.h"
 #include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/tampering.h"
 #include "tests/tools/little_obj.h"
@@ -9,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -413,36 +413,20 @@ TEST_F(Lodbake, ByEdgesItWorksToo) {
   EXPECT_LE(triangles({"--level", "1"}), (8u * 2 * 11 + 60) / 2);
 }
 
-// The most triangles that go in one step of either part: a level may have as many less than its share.
-std::size_t largest_step(const std::string& path) {
-  const auto file = TreeFile::open(path);
-  const auto tree = file->load();
-  const auto spectra = load_spectra(file->container(), tree->radius_count(), tree->materials.size());
-  std::size_t sum = 0;
-  for (const Spectrum* s : {&spectra->trunk, &spectra->leaves}) {
-    std::size_t largest = 0;
-    for (std::uint32_t n = 0; n < s->steps(); ++n)
-      largest = std::max<std::size_t>(largest, s->counts[n] - s->counts[n + 1]);
-    sum += largest;
-  }
-  return sum;
-}
-
 TEST_F(Lodbake, ASmallFileDoesAllThatAFastOneDoes) {
   ASSERT_EQ(bake({"--discrete", "0.5,0.2", "--divide", "even"}).status, 0);
   const auto fast = std::filesystem::file_size(out_);
   const std::size_t full = triangles({});
   ASSERT_EQ(bake({"--continuous", "--divide", "even", "--encode", "small"}).status, 0);
-  const std::size_t step = largest_step(out_);
-  EXPECT_LT(step, full / 3);  // its one thick limb loses its straight rings at once
+  const std::size_t half = triangles({"--ratio", "0.5"}), fifth = triangles({"--ratio", "0.2"});
+  EXPECT_LE(half, full / 2);
+  EXPECT_LE(fifth, full / 5);
+  EXPECT_GT(fifth, full / 8) << "of a spectrum that has levels all along";
   ASSERT_EQ(bake({"--discrete", "0.5,0.2", "--divide", "even", "--encode", "small"}).status, 0);
   EXPECT_LT(8 * std::filesystem::file_size(out_), fast);
   EXPECT_EQ(triangles({}), full);
-  for (const auto& [level, share] : {std::pair{"1", 0.5}, {"2", 0.2}}) {
-    const std::size_t now = triangles({"--level", level});
-    EXPECT_LE(static_cast<double>(now), share * double(full)) << level;
-    EXPECT_GE(static_cast<double>(now + step), std::floor(share * double(full))) << level;
-  }
+  EXPECT_EQ(triangles({"--level", "1"}), half) << "the finest within the share that the continuous one has";
+  EXPECT_EQ(triangles({"--level", "2"}), fifth);
   const Outcome sound = run_process({"treedump", out_, "--verify"});
   EXPECT_EQ(sound.status, 0) << sound.err;
   const std::string volumes = folder_.file("volumes.stree");
@@ -458,6 +442,60 @@ TEST_F(Lodbake, ASmallFileDoesAllThatAFastOneDoes) {
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(again.err, "");
   EXPECT_TRUE(TreeFile::open(out_)->container().find("VSET") != nullptr);
+}
+
+// Leaves that a simplifier halves without any harm: flat squares of 4 x 4 quads, `count` of them round the
+// top.
+std::string flat_leaves(int count, double height) {
+  std::string obj = "o leaves\nusemtl leaf\n";
+  for (int l = 0; l < count; ++l) {
+    const double a = 2.4 * l, x = 2 * std::cos(a), z = 2 * std::sin(a), y = height - 0.15 * l;
+    for (int i = 0; i < 25; ++i)
+      obj += "v " + std::to_string(x + 0.2 * (i % 5)) + " " + std::to_string(y + 0.2 * (i / 5)) + " " +
+             std::to_string(z) + "\n";
+    for (int i = 0; i < 16; ++i) {
+      const int corner = i / 4 * 5 + i % 4 - 25;
+      const auto v = [&](int more) { return std::to_string(corner + more) + "/" + std::to_string(1) + " "; };
+      obj += "f " + v(0) + v(1) + v(6) + "\nf " + v(0) + v(6) + v(5) + "\n";
+    }
+  }
+  return obj;
+}
+
+TEST_F(Lodbake, ASweepComparesAllMethodsAtTheSameCountsAndPeersKeepTheirMaterials) {
+  write_text(folder_.path() / "none.mtl", "newmtl bark\nKd 0 0 0\nnewmtl leaf\nKd 0 0.9 0\n");
+  write_text(folder_.path() / "flat.obj", little_tree_obj(8, 6, 0, flat_leaves(20, 5)));
+  ASSERT_EQ(run_process({"treeprep", folder_.file("flat.obj"), "-o", tree_, "-q"}).status, 0);
+  const std::string report = folder_.file("r.json");
+  const Outcome o = bake({"--sweep", "--views", "12", "--divide", "even", "--report", report});
+  ASSERT_EQ(o.status, 0) << o.err;
+  const auto json = nlohmann::json::parse(read_text(report));
+  const double full = 8 * 2 * 5 + 20 * 32;
+  std::map<std::string, int> ours;
+  for (const auto& table : json["tables"]) {
+    if (table["name"] != "sweep" && table["name"] != "last geometric level") continue;
+    const auto column = [&](const char* name) {
+      return std::find(table["columns"].begin(), table["columns"].end(), name) - table["columns"].begin();
+    };
+    for (const auto& row : table["rows"]) {
+      const std::string method = row[column("Method")];
+      const auto number = [&](const char* name) { return std::stod(row[column(name)].get<std::string>()); };
+      const double target = table["name"] == "sweep" ? std::floor(number("Share") * full) : 200;
+      if (method == "copse") {
+        ++ours[table["name"]];
+        EXPECT_LE(number("Triangles"), target);
+        EXPECT_NEAR(number("Leaf area"), 1, 0.02);
+      }
+      if (method.starts_with("meshoptimizer") && number("Share") == 0.5) {
+        EXPECT_LE(number("Triangles"), target);
+        EXPECT_NEAR(number("Leaf area"), 1, 0.02);
+        // Painted with another material, whatever is left of leaves or trunk would be wrong all over.
+        EXPECT_LT(number("RMSE"), 0.03) << method;
+      }
+    }
+  }
+  EXPECT_EQ(ours["sweep"], 5);
+  EXPECT_EQ(ours["last geometric level"], 1);
 }
 
 TEST_F(Lodbake, WarnsThatVolumesAreOfTheTreeBeforeItWasPacked) {

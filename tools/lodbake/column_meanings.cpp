@@ -23,6 +23,7 @@ constexpr std::array k_meanings{
             "surfaces of many triangles among the leaves, which lose edges before leaves are merged"},
     Meaning{"Edges until (triangles)", "of the leaves, when that ends and what is left is merged as leaves"},
     Meaning{"Area", "area of all triangles / that of full detail"},
+    Meaning{"Leaf area", "area of the leaves' triangles / that of full detail"},
     Meaning{"Coverage", "covered pixels of all views / those of full detail; 1 is right"},
     Meaning{"Silhouette IoU", "covered in both / covered in either, mean over the views; 1 is right"},
     Meaning{"RMSE", "root mean square error of the pictures, sRGB from 0 to 1; 0 is right"},

@@ -18,6 +18,7 @@ namespace copse::lodbake {
 namespace {
 
 constexpr double k_shares[] = {0.5, 0.25, 0.1, 0.05, 0.02};
+constexpr std::uint64_t k_last = 200;  // triangles of the last geometric level
 
 // Of every vertex the material of a triangle that has it: the simplifier knows none, but keeps vertices.
 std::vector<std::uint32_t> vertex_materials(const DrawnMesh& mesh) {
@@ -50,14 +51,23 @@ DrawnMesh simplified(const DrawnMesh& mesh, std::uint64_t triangles) {
   return out;
 }
 
-// Material by material, as an engine draws them: the simplifier knows none. `whole`: one target for all
-// together, so that it takes where it costs least; otherwise the same share of each.
-DrawnMesh peer(const LodSpectra& spectra, std::uint64_t target, bool whole) {
+// A level of some method; the area of its leaves where they can be told from the trunk, m².
+struct Made {
+  DrawnMesh mesh;
+  std::optional<double> leaf_area;
+};
+
+// `whole`: one target for all together, so that it takes where it costs least; otherwise the same share of
+// each part.
+Made peer(const LodSpectra& spectra, std::uint64_t target, bool whole) {
   const DrawnMesh trunk = drawn_state(spectra.trunk, 0), leaves = drawn_state(spectra.leaves, 0);
   if (whole) {
     DrawnMesh all = trunk;
     append(all, leaves);
-    return simplified(all, target);
+    Made out{simplified(all, target), 0.0};
+    for (std::uint32_t t = 0; t < out.mesh.triangles.size(); ++t)
+      if (out.mesh.triangles[t][0] >= trunk.positions.size()) *out.leaf_area += area(out.mesh, t);
+    return out;
   }
   const double share =
       static_cast<double>(target) / static_cast<double>(trunk.triangles.size() + leaves.triangles.size());
@@ -65,10 +75,59 @@ DrawnMesh peer(const LodSpectra& spectra, std::uint64_t target, bool whole) {
     return simplified(
         mesh, static_cast<std::uint64_t>(std::floor(share * static_cast<double>(mesh.triangles.size()))));
   };
-  DrawnMesh out = part(trunk);
-  append(out, part(leaves));
+  Made out{part(trunk), {}};
+  const DrawnMesh left = part(leaves);
+  out.leaf_area = area(left);
+  append(out.mesh, left);
   return out;
 }
+
+Made level_of(const LodSpectra& spectra, std::uint64_t target) {
+  const LodLevel level = level_of_triangles(spectra, target);
+  return {drawn_level(spectra, level), area(drawn_state(spectra.leaves, level.leaf_steps))};
+}
+
+// All methods at the same number of triangles.
+class Contest {
+ public:
+  Contest(const Tree& tree, const LodSpectra& spectra, const Looks& looks, const Options& options,
+          std::uint64_t seed)
+      : spectra_(spectra),
+        even_(spectra),
+        edges_(spectra),
+        pruned_(spectra),
+        gltfpack_(Gltfpack::find(tree)) {
+    couple(even_, nullptr);
+    const PartTriangles trunk = trunk_triangles(tree);
+    edges_.trunk = edge_spectrum(trunk, collapse_edges(trunk), {});
+    couple(edges_, nullptr);
+    pruned_.leaves = pruned_spectrum(
+        tree, prune_foliage(tree, looks, {.cells = options.cells, .views = 12, .seed = seed}));
+    couple(pruned_, nullptr);
+  }
+
+  bool has_gltfpack() const { return gltfpack_.has_value(); }
+
+  // add(name, level).
+  template <class Add>
+  void each(double share, std::uint64_t target, Add&& add) const {
+    add("copse", level_of(spectra_, target));
+    add("copse, even", level_of(even_, target));
+    add("copse, trunk by edges", level_of(edges_, target));
+    add("copse, leaves pruned", level_of(pruned_, target));
+    add("meshoptimizer, one mesh", peer(spectra_, target, true));
+    add("meshoptimizer, each part", peer(spectra_, target, false));
+    for (const bool aggressive : {false, true}) {
+      auto level = gltfpack_ ? gltfpack_->level(share, aggressive) : std::nullopt;
+      if (level) add(aggressive ? "gltfpack -sa" : "gltfpack -si", Made{std::move(*level), {}});
+    }
+  }
+
+ private:
+  const LodSpectra& spectra_;
+  LodSpectra even_, edges_, pruned_;
+  std::optional<Gltfpack> gltfpack_;
+};
 
 }  // namespace
 
@@ -76,49 +135,39 @@ void sweep(const Tree& tree, const LodSpectra& spectra, const Looks& looks, cons
            Context& context) {
   Stage stage = context.stage("sweep");
   const DrawnMesh source = drawn_level(spectra, {});
-  const double full = static_cast<double>(source.triangles.size());
-  LodSpectra even = spectra, edges = spectra;
-  couple(even, nullptr);
-  const PartTriangles trunk = trunk_triangles(tree);
-  edges.trunk = edge_spectrum(trunk, collapse_edges(trunk), {});
-  couple(edges, nullptr);
-  LodSpectra pruned = spectra;
-  pruned.leaves = pruned_spectrum(
-      tree,
-      prune_foliage(tree, looks, {.cells = options.cells, .views = 12, .seed = context.options().seed}));
-  couple(pruned, nullptr);
-  const std::optional<Gltfpack> gltfpack = Gltfpack::find(tree);
-  if (!gltfpack)
+  const double leaf_area = area(drawn_state(spectra.leaves, 0));
+  const auto full = static_cast<double>(source.triangles.size());
+  const Contest contest(tree, spectra, looks, options, context.options().seed);
+  if (!contest.has_gltfpack())
     context.warn("--sweep: gltfpack is not installed (npm install gltfpack), its rows are left out");
   Table table{.name = "sweep",
-              .columns = {"Method", "Share", "Triangles", "Area", "Coverage", "Silhouette IoU", "RMSE",
-                          "SSIM", "Hull growth", "Pixels"},
+              .columns = {"Method", "Share", "Triangles", "Area", "Leaf area", "Coverage", "Silhouette IoU",
+                          "RMSE", "SSIM", "Hull growth", "Pixels"},
               .rows = {}};
-  for (const double share : k_shares) {
-    const int pixels = share >= 0.25 ? 512 : share >= 0.05 ? 128 : 32;
+  Table last = table;
+  last.name = "last geometric level";
+  const auto rows = [&](Table& to, double share, std::uint64_t target, int pixels) {
     const LodJudge judge(source, looks, {.views = options.views, .image_size = pixels, .mask_size = 256});
-    const auto target = static_cast<std::uint64_t>(std::floor(share * full));
-    const auto add = [&](const char* method, const DrawnMesh& level) {
-      const LodQuality q = judge.measure(level);
-      table.rows.push_back({method, fmt::format("{}", share), fmt::format("{}", q.triangles),
-                            fmt::format("{:.3f}", q.area_ratio), fmt::format("{:.3f}", q.coverage_ratio),
-                            fmt::format("{:.3f}", q.iou), fmt::format("{:.4f}", q.rmse),
-                            fmt::format("{:.3f}", q.ssim), fmt::format("{:.3f}", q.hull_growth),
-                            fmt::format("{}", pixels)});
-    };
-    add("copse", drawn_level(spectra, level_of_triangles(spectra, target)));
-    add("copse, even", drawn_level(even, level_of_triangles(even, target)));
-    add("copse, trunk by edges", drawn_level(edges, level_of_triangles(edges, target)));
-    add("copse, leaves pruned", drawn_level(pruned, level_of_triangles(pruned, target)));
-    add("meshoptimizer, one mesh", peer(spectra, target, true));
-    add("meshoptimizer, each part", peer(spectra, target, false));
-    for (const bool aggressive : {false, true}) {
-      const auto level = gltfpack ? gltfpack->level(share, aggressive) : std::nullopt;
-      if (level) add(aggressive ? "gltfpack -sa" : "gltfpack -si", *level);
-    }
-  }
-  stage.items(table.rows.size(), "levels");
-  context.report().tables.push_back(std::move(table));
+    contest.each(share, target, [&](const char* method, const Made& level) {
+      const LodQuality q = judge.measure(level.mesh);
+      const bool leaves = level.leaf_area && leaf_area > 0;
+      to.rows.push_back({method, fmt::format("{:.4g}", share), fmt::format("{}", q.triangles),
+                         fmt::format("{:.3f}", q.area_ratio),
+                         leaves ? fmt::format("{:.3f}", *level.leaf_area / leaf_area) : "",
+                         fmt::format("{:.3f}", q.coverage_ratio), fmt::format("{:.3f}", q.iou),
+                         fmt::format("{:.4f}", q.rmse), fmt::format("{:.3f}", q.ssim),
+                         fmt::format("{:.3f}", q.hull_growth), fmt::format("{}", pixels)});
+    });
+  };
+  for (const double share : k_shares)
+    rows(table, share, static_cast<std::uint64_t>(std::floor(share * full)),
+         share >= 0.25   ? 512
+         : share >= 0.05 ? 128
+                         : 32);
+  if (full > k_last) rows(last, k_last / full, k_last, 32);
+  stage.items(table.rows.size() + last.rows.size(), "levels");
+  for (Table* t : {&table, &last})
+    if (!t->rows.empty()) context.report().tables.push_back(std::move(*t));
 }
 
 }  // namespace copse::lodbake
