@@ -60,8 +60,8 @@ struct Spectrum {
 struct LodLevel {
   std::uint32_t trunk_steps = 0, leaf_steps = 0;
   std::uint32_t triangles = 0;  // of both parts together
-  float error = 0;     // metres: how far its surface lies from full detail's, as measured or as bounded
-  float distance = 0;  // metres from the camera at which it takes over from the finer one
+  float error = 0;              // metres: the larger of both spectra's errors after these steps (an estimate)
+  float distance = 0;           // metres from the camera at which it takes over from the finer one
   friend bool operator==(const LodLevel&, const LodLevel&) = default;
 };
 
