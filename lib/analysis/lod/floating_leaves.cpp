@@ -30,51 +30,6 @@ double segment_square(const Double3& p, const Double3& q, const Double3& a, cons
   return dot(apart, apart);
 }
 
-// Whether the segment a b goes through the triangle.
-bool pierces(const Corners& t, const Double3& n, const Double3& a, const Double3& b) {
-  const Double3 d = b - a;
-  const double along = dot(n, d), from = dot(n, t[0] - a);
-  if (along == 0 || from / along < 0 || from / along > 1) return false;
-  const Double3 p = a + d * (from / along);
-  for (std::size_t c = 0; c < 3; ++c)
-    if (dot(n, cross(t[(c + 1) % 3] - t[c], p - t[c])) < 0) return false;
-  return true;
-}
-
-// From a point to the triangle's inside, along its normal, squared; infinite beside it.
-double plane_square(const Double3& p, const Corners& t, const Double3& n) {
-  const double size = dot(n, n);
-  if (!(size > 0)) return std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < 3; ++c)
-    if (dot(n, cross(t[(c + 1) % 3] - t[c], p - t[c])) < 0) return std::numeric_limits<double>::infinity();
-  const double along = dot(n, p - t[0]);
-  return along * along / size;
-}
-
-// Between two triangles; or something from there to `enough`, when that is less work.
-double triangle_square(const Corners& t, const Corners& s, double enough) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Double3 apart = t[c] - s[k];
-      least = std::min(least, dot(apart, apart));
-    }
-  }
-  if (least <= enough) return least;
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t k = 0; k < 3; ++k)
-      least = std::min(least, segment_square(t[c], t[(c + 1) % 3], s[k], s[(k + 1) % 3]));
-    if (least <= enough) return least;
-  }
-  const Double3 tn = cross(t[1] - t[0], t[2] - t[0]), sn = cross(s[1] - s[0], s[2] - s[0]);
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::size_t next = (c + 1) % 3;
-    if (pierces(t, tn, s[c], s[next]) || pierces(s, sn, t[c], t[next])) return 0;
-    least = std::min({least, plane_square(s[c], t, tn), plane_square(t[c], s, sn)});
-  }
-  return least;
-}
-
 double box_square(const DoubleBox& a, const DoubleBox& b) {
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
@@ -84,38 +39,96 @@ double box_square(const DoubleBox& a, const DoubleBox& b) {
   return sum;
 }
 
+struct Facet {
+  explicit Facet(const Corners& corners)
+      : at(corners),
+        normal(cross(corners[1] - corners[0], corners[2] - corners[0])),
+        size(dot(normal, normal)) {
+    for (const Double3& p : corners) box.grow(p);
+  }
+  // Whether it is on the outer side of an edge, seen along the normal.
+  bool beside(const Double3& p) const {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (dot(normal, cross(at[(c + 1) % 3] - at[c], p - at[c])) < 0) return true;
+    return false;
+  }
+  Corners at;
+  Double3 normal;
+  double size;  // of the normal, squared
+  DoubleBox box;
+};
+
+// Whether the segment a b goes through the triangle.
+bool pierces(const Facet& t, const Double3& a, const Double3& b) {
+  const Double3 d = b - a;
+  const double along = dot(t.normal, d), from = dot(t.normal, t.at[0] - a);
+  return along != 0 && from / along >= 0 && from / along <= 1 && !t.beside(a + d * (from / along));
+}
+
+// Whether the triangle's plane alone keeps the other one farther away than the root of `reach`.
+bool separates(const Facet& t, const Facet& other, double reach) {
+  const double a = dot(t.normal, other.at[0] - t.at[0]), b = dot(t.normal, other.at[1] - t.at[0]),
+               c = dot(t.normal, other.at[2] - t.at[0]);
+  const double near = a > 0 ? std::min({a, b, c}) : -std::max({a, b, c});
+  return near > 0 && near * near > reach * t.size;
+}
+
+// Between two triangles, squared; or anything above `reach` when it is; or something from there to `enough`,
+// when that is less work.
+double triangle_square(const Facet& t, const Facet& s, double reach, double enough) {
+  if (separates(t, s, reach) || separates(s, t, reach)) return std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Double3 apart = t.at[c] - s.at[k];
+      least = std::min(least, dot(apart, apart));
+    }
+  }
+  if (least <= enough) return least;
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t k = 0; k < 3; ++k)
+      least = std::min(least, segment_square(t.at[c], t.at[(c + 1) % 3], s.at[k], s.at[(k + 1) % 3]));
+    if (least <= enough) return least;
+  }
+  const bool touching = box_square(t.box, s.box) == 0;
+  // A corner over the other triangle's inside, if that is any nearer.
+  const auto over = [&](const Facet& f, const Double3& p) {
+    const double along = dot(f.normal, p - f.at[0]);
+    if (along * along < least * f.size && !f.beside(p)) least = along * along / f.size;
+  };
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t next = (c + 1) % 3;
+    if (touching && (pierces(t, s.at[c], s.at[next]) || pierces(s, t.at[c], t.at[next]))) return 0;
+    over(t, s.at[c]), over(s, t.at[c]);
+  }
+  return least;
+}
+
 Corners corners_of(const Spectrum& s, std::uint32_t triangle) {
   Corners out;
   for (std::size_t c = 0; c < 3; ++c) out[c] = to_double(s.vertices[s.triangles[triangle][c]].position);
   return out;
 }
 
-DoubleBox box_of(const Corners& triangle) {
-  DoubleBox box;
-  for (const Double3& p : triangle) box.grow(p);
-  return box;
-}
-
-// The triangles of one leaf, each with its box.
+// The triangles of one leaf.
 struct Leaf {
   Leaf(const Spectrum& s, std::size_t element) {
     for (std::uint32_t t = s.first_triangle[element]; t < s.first_triangle[element + 1]; ++t) {
-      triangles.push_back(corners_of(s, t));
-      boxes.push_back(box_of(triangles.back()));
-      box.grow(boxes.back());
+      facets.emplace_back(corners_of(s, t));
+      box.grow(facets.back().box);
     }
   }
-  // To the triangle with that box, squared; or anything above `reach`, or something up to `enough`.
-  double square_to(const Corners& triangle, const DoubleBox& its, double reach, double enough) const {
+  // To the facet, squared; or anything above `reach`, or something up to `enough`.
+  double square_to(const Facet& facet, double reach, double enough) const {
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      if (least > enough && box_square(boxes[t], its) <= std::min(reach, least))
-        least = std::min(least, triangle_square(triangles[t], triangle, enough));
+    for (const Facet& own : facets) {
+      const double within = std::min(reach, least);
+      if (least > enough && box_square(own.box, facet.box) <= within)
+        least = std::min(least, triangle_square(own, facet, within, enough));
     }
     return least;
   }
-  std::vector<Corners> triangles;
-  std::vector<DoubleBox> boxes;
+  std::vector<Facet> facets;
   DoubleBox box;
 };
 
@@ -130,9 +143,8 @@ class FloatingLeaves::DrawnTrunk {
     for (std::size_t e = 0; e < trunk.elements.size(); ++e) {
       if (trunk.elements[e].birth > last) continue;
       for (std::uint32_t t = trunk.first_triangle[e]; t < trunk.first_triangle[e + 1]; ++t)
-        pieces_.push_back({corners_of(trunk, t), {}, trunk.elements[e].birth, trunk.elements[e].death});
+        pieces_.push_back({Facet(corners_of(trunk, t)), trunk.elements[e].birth, trunk.elements[e].death});
     }
-    for (Piece& piece : pieces_) piece.box = box_of(piece.corners);
     std::size_t bottoms = 1;
     while (bottoms * k_bottom < pieces_.size()) bottoms *= 2;
     nodes_.resize(2 * bottoms - 1);
@@ -179,8 +191,7 @@ class FloatingLeaves::DrawnTrunk {
  private:
   static constexpr std::size_t k_bottom = 4;
   struct Piece {
-    Corners corners;
-    DoubleBox box;
+    Facet facet;
     std::uint32_t birth = 0, death = k_none;
   };
   struct Node {
@@ -193,8 +204,8 @@ class FloatingLeaves::DrawnTrunk {
     Node& node = nodes_[i];
     DoubleBox middles;
     for (std::uint32_t p = node.first; p < node.last; ++p) {
-      node.box.grow(pieces_[p].box);
-      middles.grow(pieces_[p].box.centre());
+      node.box.grow(pieces_[p].facet.box);
+      middles.grow(pieces_[p].facet.box.centre());
       node.birth = std::min(node.birth, pieces_[p].birth);
       node.death = std::max(node.death, pieces_[p].death);
     }
@@ -204,7 +215,7 @@ class FloatingLeaves::DrawnTrunk {
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     const auto at = [&](std::uint32_t p) { return pieces_.begin() + static_cast<std::ptrdiff_t>(p); };
     std::nth_element(at(node.first), at(half), at(node.last), [&](const Piece& a, const Piece& b) {
-      return a.box.min[axis] + a.box.max[axis] < b.box.min[axis] + b.box.max[axis];
+      return a.facet.box.min[axis] + a.facet.box.max[axis] < b.facet.box.min[axis] + b.facet.box.max[axis];
     });
     nodes_[2 * i + 1].first = node.first, nodes_[2 * i + 1].last = half;
     nodes_[2 * i + 2].first = half, nodes_[2 * i + 2].last = node.last;
@@ -220,7 +231,7 @@ class FloatingLeaves::DrawnTrunk {
       const Node& node = nodes_[i];
       return node.first != node.last && wanted(node) && box_square(node.box, leaf.box) <= reach();
     };
-    if (!pieces_.empty() && !leaf.triangles.empty() && open(0)) stack[depth++] = 0;
+    if (!pieces_.empty() && !leaf.facets.empty() && open(0)) stack[depth++] = 0;
     const Double3 middle = leaf.box.centre();
     const auto away = [&](std::uint32_t i) {
       const Double3 d = nodes_[i].box.centre() - middle;
@@ -232,8 +243,8 @@ class FloatingLeaves::DrawnTrunk {
       if (2 * i + 2 >= nodes_.size()) {
         for (std::uint32_t p = node.first; p < node.last; ++p) {
           const Piece& piece = pieces_[p];
-          if (!wanted(piece) || box_square(piece.box, leaf.box) > reach()) continue;
-          const double square = leaf.square_to(piece.corners, piece.box, reach(), enough);
+          if (!wanted(piece) || box_square(piece.facet.box, leaf.box) > reach()) continue;
+          const double square = leaf.square_to(piece.facet, reach(), enough);
           if (square <= reach() && !found(piece, square)) return;
         }
         continue;
