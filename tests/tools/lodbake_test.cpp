@@ -381,10 +381,17 @@ TEST_F(Lodbake, SaysWhatIsNotToBeHad) {
   const Outcome cells = bake({"--cells", "12", "--divide", "even"});
   EXPECT_EQ(cells.status, 0);
   EXPECT_NE(cells.err.find("--cells"), std::string::npos) << cells.err;
-  const Outcome floor = bake(
-      {"--foliage", "prune", "--cells", "60", "--views", "12", "--discrete", "0.05", "--divide", "even"});
+  const Outcome floor = bake({"--trunk", "edges", "--discrete", "0.01", "--divide", "even"});
   EXPECT_EQ(floor.status, 0);
-  EXPECT_NE(floor.err.find("not the 11 that were asked for"), std::string::npos) << floor.err;
+  EXPECT_NE(floor.err.find("not the 2 that were asked for"), std::string::npos) << floor.err;
+}
+
+TEST_F(Lodbake, PrunedLeavesHaveNoFloor) {
+  const Outcome o = bake(
+      {"--foliage", "prune", "--cells", "60", "--views", "12", "--discrete", "0.05", "--divide", "even"});
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(o.err.find("asked for"), std::string::npos) << o.err;
+  EXPECT_LE(triangles({"--level", "1"}), 11u);
 }
 
 TEST_F(Lodbake, ASmallCrownIsPrunedToo) {

@@ -61,7 +61,7 @@ Spectrum leaf_spectrum(const Tree& tree, const Looks& looks, const Options& opti
   stage.items(tree.leaves.triangles.size(), "triangles");
   if (options.foliage == FoliageMethod::collapse || tree.leaves.triangles.empty())
     return collapsed(tree, looks, options, context);
-  // Every cell keeps a leaf: a small crown in many cells would not be pruned at all.
+  // Small cells hold few leaves: these could not grow.
   const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(1, tree.leaf_count() / k_leaves_a_cell));
   cells = prune_foliage(tree, looks,
                         {.cells = options.cells_given ? options.cells : std::min(options.cells, most),
