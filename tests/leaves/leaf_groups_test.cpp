@@ -159,6 +159,22 @@ TEST(LeafGroups, TheOrderIsByDistanceFromTheGroupsCentreOrFromTheTerminal) {
   }
 }
 
+TEST(LeafGroups, TheOrderHoldsWhereASumWithTheOriginIsRounded) {
+  const Double3 far{1e15, 0, 0};  // doubles are an eighth apart there
+  const Crown crown = random_crown(7, 100, far);
+  GroupOptions options;
+  options.origin = far;
+  const LeafGroups g = leaf_groups(crown.mesh, crown.leaves, {}, options);
+  for (const LeafGroup& group : g.groups) {
+    double before = 0;
+    for (std::uint32_t k = group.first; k < group.first + group.count; ++k) {
+      const double d = distance(crown.leaves.centres[g.order[k]] - far, to_double(group.centre));
+      EXPECT_GE(d, before * (1 - 1e-15));
+      before = d;
+    }
+  }
+}
+
 TEST(LeafGroups, TheRandomOrderDependsOnTheSeedAlone) {
   const Crown crown = random_crown(8, 200);
   GroupOptions options;

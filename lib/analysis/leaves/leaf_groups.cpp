@@ -119,11 +119,12 @@ struct Keyed {
   auto operator<=>(const Keyed&) const = default;
 };
 
+// `from` is relative to the origin, as what is stored is: far from 0 a sum with it would be rounded.
 void sort_by_distance(std::span<std::uint32_t> members, std::span<const Double3> centres,
-                      const Double3& from) {
+                      const Double3& origin, const Double3& from) {
   std::vector<Keyed> keyed;
   for (const std::uint32_t leaf : members) {
-    const Double3 d = centres[leaf] - from;
+    const Double3 d = centres[leaf] - origin - from;
     keyed.push_back({dot(d, d), leaf});
   }
   std::sort(keyed.begin(), keyed.end());
@@ -179,8 +180,9 @@ LeafGroups leaf_groups(const Mesh& mesh, const LeafGeometry& leaves, std::span<c
       sort_at_random(members, stream);
     } else {
       const bool from_terminal = options.order == LeafOrder::terminal && hang;
-      sort_by_distance(members, leaves.centres,
-                       from_terminal ? terminals[out.terminal[g]] : to_double(group.centre) + options.origin);
+      const Double3 from =
+          from_terminal ? terminals[out.terminal[g]] - options.origin : to_double(group.centre);
+      sort_by_distance(members, leaves.centres, options.origin, from);
     }
     if (hang) out.of_terminal[out.terminal[g]] = g;
   }

@@ -1,7 +1,7 @@
 #include "lib/analysis/trunk/segment_tree.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -15,6 +15,39 @@ double distance_to(const DoubleBox& box, const Double3& p) {
   return length(Double3{outside(box.min.x, box.max.x, p.x), outside(box.min.y, box.max.y, p.y),
                         outside(box.min.z, box.max.z, p.z)});
 }
+
+// Lower bounds of distances from one point, by squares: several times as fast as what is safe at any scale,
+// since everything is measured in units in which nothing overflows.
+class Bounds {
+ public:
+  Bounds(const DoubleBox& all, const Double3& point) : point_(point) {
+    const Double3 e = all.extent();
+    size_ = std::max({e.x, e.y, e.z, distance_to(all, point)});
+    if (!(size_ > 0)) size_ = 1;
+    unit_ = 1 / size_;
+    if (!std::isfinite(unit_)) size_ = unit_ = 0;  // no bound but 0
+  }
+  double from(const DoubleBox& box) const {
+    const auto outside = [](double low, double high, double x) { return std::max({low - x, x - high, 0.0}); };
+    return below(Double3{outside(box.min.x, box.max.x, point_.x), outside(box.min.y, box.max.y, point_.y),
+                         outside(box.min.z, box.max.z, point_.z)} *
+                 unit_);
+  }
+  double from_axis(const Segment& s) const {
+    const Double3 axis = (s.b - s.a) * unit_, to = (point_ - s.a) * unit_;
+    const double square = dot(axis, axis);
+    const double t = square > 0 ? std::clamp(dot(axis, to) / square, 0.0, 1.0) : 0;
+    return below(to - axis * t);
+  }
+
+ private:
+  // Rounding is far below the margin: a vector's components are at most 2 units.
+  double below(const Double3& units) const {
+    return size_ * std::max(0.0, std::sqrt(dot(units, units)) - 1e-12);
+  }
+  Double3 point_;
+  double size_ = 0, unit_ = 0;
+};
 
 int longest_axis(const DoubleBox& box) {
   const Double3 e = box.extent();
@@ -100,22 +133,33 @@ void SegmentTree::near(const Double3& point, double reach, double least_radius, 
     found.insert(at, n);
     if (found.size() > count) found.pop_back();
   };
-  std::vector<std::uint32_t> todo{0};
+  // Whether nothing as far from the point and with no larger radius can be among what is found.
+  const auto is_too_far = [&](double d, double radius) {
+    return d > radius + reach ||
+           (found.size() == count && d > key(found.back()).first * std::max(radius, least_radius));
+  };
+  struct Step {
+    std::uint32_t node;
+    double distance;  // of the point from its box
+  };
+  const Bounds bounds(nodes_[0].box, point);
+  const auto step_to = [&](std::uint32_t id) { return Step{id, bounds.from(nodes_[id].box)}; };
+  std::vector<Step> todo{step_to(0)};
   while (!todo.empty()) {
-    const std::uint32_t id = todo.back();
+    const auto [id, d] = todo.back();
     todo.pop_back();
     const Node& node = nodes_[id];
-    const double d = distance_to(node.box, point);
-    if (d > node.radius + reach) continue;
-    const double widest = std::max(node.radius, least_radius);
-    if (found.size() == count && d >= key(found.back()).first * widest) continue;
-    if (node.count == 0) {
-      todo.push_back(node.first);
-      todo.push_back(id + 1);
+    if (is_too_far(d, node.radius)) continue;
+    if (node.count == 0) {  // the nearer child first: what it holds spares most of the other
+      Step near = step_to(id + 1), far = step_to(node.first);
+      if (far.distance < near.distance) std::swap(near, far);
+      todo.push_back(far);
+      todo.push_back(near);
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (segments_[order_[i]].limb == except) continue;
+      const Segment& s = segments_[order_[i]];
+      if (s.limb == except || is_too_far(bounds.from_axis(s), std::max(s.radius_a, s.radius_b))) continue;
       const Nearness n = nearness(segments_, order_[i], point);
       if (n.gap() <= reach) insert(n);
     }
@@ -124,16 +168,17 @@ void SegmentTree::near(const Double3& point, double reach, double least_radius, 
 
 bool SegmentTree::nearest(const Double3& point, double reach, std::uint32_t except, Nearness& found) const {
   bool any = false;
-  std::vector<std::uint32_t> todo;
-  if (!nodes_.empty()) todo.push_back(0);
+  if (nodes_.empty()) return false;
+  const Bounds bounds(nodes_[0].box, point);
+  std::vector<std::uint32_t> todo{0};
   while (!todo.empty()) {
     const std::uint32_t id = todo.back();
     todo.pop_back();
     const Node& node = nodes_[id];
-    if (distance_to(node.box, point) - node.radius > (any ? found.gap() : reach)) continue;
+    if (bounds.from(node.box) - node.radius > (any ? found.gap() : reach)) continue;
     if (node.count == 0) {
       std::uint32_t near = id + 1, far = node.first;
-      if (distance_to(nodes_[far].box, point) < distance_to(nodes_[near].box, point)) std::swap(near, far);
+      if (bounds.from(nodes_[far].box) < bounds.from(nodes_[near].box)) std::swap(near, far);
       todo.push_back(far);
       todo.push_back(near);
       continue;
