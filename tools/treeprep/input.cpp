@@ -148,12 +148,17 @@ Result<Input> read_input(const Options& options, Context& context) {
   }
   stage.items(input.mesh.triangles.size(), "triangles");
   if (options.inputs.size() > 1) input.name += fmt::format(" (+{} more)", options.inputs.size() - 1);
+  if (const auto ok = settle(input, options, context); !ok) return std::unexpected(ok.error());
+  return input;
+}
+
+Result<void> settle(Input& input, const Options& options, Context& context) {
   orient(input.mesh, options.up, options.scale);
-  if (const auto ok = check_size(input.mesh, input.name); !ok) return std::unexpected(ok.error());
+  if (const auto ok = check_size(input.mesh, input.name); !ok) return ok;
   if (options.up == UpAxis::y) warn_if_z_up(input.mesh, input.name, context);
   if (!options.strict)
     input.file_order = order_by_place(input.mesh);  // strict messages go by the file's order
-  return input;
+  return {};
 }
 
 double weld_tolerance(const Input& input, const Options& options) {

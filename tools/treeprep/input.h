@@ -29,6 +29,10 @@ inline constexpr double k_largest_extent = 1e18;
 // warned about; with --strict it is also listed in `faults`.
 Result<Input> read_input(const Options& options, Context& context);
 
+// The last step of read_input(): into copse's frame and, but with --strict, into spatial order. Refuses a
+// mesh without triangles and one that is too large.
+Result<void> settle(Input& input, const Options& options, Context& context);
+
 // The distance in metres within which --weld makes positions one; negative: decided place by place.
 double weld_tolerance(const Input& input, const Options& options);
 

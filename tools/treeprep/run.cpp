@@ -1,21 +1,14 @@
 #include "tools/treeprep/run.h"
 
-#include "lib/analysis/leaves/classify.h"
 #include "lib/analysis/measure/cylinder_error.h"
-#include "lib/analysis/surface/trunk_mesh.h"
-#include "lib/analysis/tree/assemble.h"
-#include "lib/analysis/tree/lone_segment.h"
-#include "lib/analysis/trunk/recover.h"
 #include "lib/formats/tree_file/tree_file.h"
 #include "lib/formats/tree_file/tree_pack.h"
+#include "tools/treeprep/analyse.h"
 #include "tools/treeprep/findings.h"
 #include "tools/treeprep/input.h"
-#include "tools/treeprep/leaf_stage.h"
 #include "tools/treeprep/parts.h"
 #include "tools/treeprep/picture.h"
 #include "tools/treeprep/provenance.h"
-#include "tools/treeprep/strict_stage.h"
-#include "tools/treeprep/texture_stage.h"
 
 #include <fmt/format.h>
 
@@ -27,84 +20,6 @@ Result<TreeKind> kind_of(const std::filesystem::path& output) {
   if (output.extension() == ".stree") return TreeKind::sensitive;
   return fail(Fault::usage, output.string(), "the output's extension picks its kind",
               "name it .tree (static) or .stree (able to move)");
-}
-
-// Everything between the mesh and the file.
-struct Analysis {
-  Classification classes;
-  TrunkMesh trunk;
-  Hierarchy hierarchy;
-  LeafStage leaves;
-  Assembled assembled;
-};
-
-Result<Classification> classify_stage(const Input& input, const Options& options, Context& context) {
-  Stage stage = context.stage("classify");
-  stage.items(input.mesh.triangles.size(), "triangles");
-  auto classes = classify(input.mesh, {options.trunk_patterns, options.leaf_patterns});
-  if (!classes && classes.error().file.empty()) classes.error().file = input.name;
-  return classes;
-}
-
-// A tolerance of the user's that makes nothing of much of the trunk.
-void warn_of_lost(const Input& input, std::ptrdiff_t before, std::size_t after, const Options& options,
-                  Context& context) {
-  const std::size_t lost = static_cast<std::size_t>(before) - after;
-  if (options.weld < 0 || lost * 100 <= static_cast<std::size_t>(before)) return;
-  context.warn(fmt::format("{}: --weld {} leaves no area to {} of {} trunk triangles; use a smaller one",
-                           input.name, options.weld, lost, before));
-}
-
-TrunkMesh weld_stage(const Input& input, const Classification& classes, const Options& options,
-                     Context& context) {
-  Stage stage = context.stage("weld");
-  std::vector<std::uint8_t> is_trunk(input.mesh.triangles.size());
-  for (std::size_t t = 0; t < is_trunk.size(); ++t) is_trunk[t] = classes.leaf_of[t] == k_none;
-  TrunkMesh trunk = make_trunk_mesh(input.mesh, is_trunk, weld_tolerance(input, options), input.file_order);
-  stage.items(trunk.triangles.size(), "trunk triangles");
-  warn_of_lost(input, std::ranges::count(is_trunk, 1), trunk.triangles.size(), options, context);
-  return trunk;
-}
-
-Hierarchy skeleton_stage(const TrunkMesh& trunk, const Options& options, Context& context) {
-  Stage stage = context.stage("skeleton");
-  stage.items(trunk.triangles.size(), "trunk triangles");
-  Hierarchy hierarchy = recover_hierarchy(trunk, {.skeleton = options.skeleton, .roots = options.roots});
-  add_lone_segment(trunk, hierarchy);
-  return hierarchy;
-}
-
-Result<Analysis> analyse(Input& input, const Options& options, TreeKind kind, const LeftOut& left_out,
-                         Context& context) {
-  Analysis a;
-  auto classes = classify_stage(input, options, context);
-  if (!classes) return std::unexpected(classes.error());
-  a.classes = std::move(*classes);
-  if (options.strict) {
-    auto strict = strict_stage(input, a.classes, options, context);
-    if (!strict) return std::unexpected(strict.error());
-    a.trunk = std::move(strict->mesh), a.hierarchy = std::move(strict->hierarchy);
-    add_lone_segment(a.trunk, a.hierarchy);
-  }
-  if (!left_out.textures) {
-    if (const auto ok = texture_stage(input, options, context); !ok) return std::unexpected(ok.error());
-  }
-  if (!options.strict) {
-    a.trunk = weld_stage(input, a.classes, options, context);
-    a.hierarchy = skeleton_stage(a.trunk, options, context);
-  }
-  const Double3 origin = choose_origin(bounds(input.mesh));
-  a.leaves = leaf_stage(input, a.classes, a.hierarchy, origin, options, left_out, context);
-
-  Stage stage = context.stage("assemble");
-  stage.items(input.mesh.triangles.size(), "triangles");
-  a.assembled = assemble({input.mesh, a.trunk, a.hierarchy, a.leaves.geometry, a.leaves.groups, origin},
-                         {.kind = kind, .leaf_order = options.leaf_order});
-  if (a.assembled.mixed_materials > 0) {
-    context.warn(fmt::format("{}: {} leaves use several materials; each is stored with its first", input.name,
-                             a.assembled.mixed_materials));
-  }
-  return a;
 }
 
 // The measures and pictures that only a report or a page shows.
