@@ -79,6 +79,33 @@ TEST(CylinderError, ThePercentileIsThatOfTheArea) {
   EXPECT_NEAR(six.of_radius.p95, six.of_radius.max, 0.011 * six.of_radius.max);
 }
 
+// The upper ring stands aslant: its plane holds nearly the axis.
+TEST(CylinderError, OfATubeThatIsShearedIsThatOfTheUprightOneWhereItsRingsAreKnown) {
+  Prism p = prism(12);
+  for (std::uint32_t i = 12; i < 24; ++i) {
+    Double3& v = p.mesh.positions[i];
+    v = {0.2 * v.x, 5 + v.x * std::sqrt(0.96), v.z};
+  }
+  p.hierarchy.radii[1].centre = {0, 5, 0};
+  const CylinderError unknown = cylinder_error(p.mesh, p.hierarchy, 2);
+  EXPECT_LT(unknown.explained_triangles, 1);
+  for (std::uint32_t i = 0; i < 24; ++i) p.hierarchy.ring_vertices.push_back(i);
+  p.hierarchy.first_vertex = {0, 12, 24};
+  const CylinderError known = cylinder_error(p.mesh, p.hierarchy, 2);
+  EXPECT_EQ(known.explained_triangles, 1);
+  EXPECT_LT(known.of_radius.mean, 0.5 * unknown.of_radius.mean);
+  // What a skeleton only counts to a radius tells nothing about how it stands.
+  for (RadiusNode& r : p.hierarchy.radii) r.source = RadiusSource::surface;
+  EXPECT_EQ(cylinder_error(p.mesh, p.hierarchy, 2).explained_triangles, unknown.explained_triangles);
+}
+
+TEST(CylinderError, ARingThatIsNoCircleIsMeasuredWhereverItStands) {
+  Prism p = prism(8, 0.25);
+  for (std::uint32_t i = 0; i < 16; ++i) p.hierarchy.ring_vertices.push_back(i);
+  p.hierarchy.first_vertex = {0, 8, 16};
+  EXPECT_NEAR(cylinder_error(p.mesh, p.hierarchy, 2).of_radius.max, 0.25, 1e-12);
+}
+
 TEST(CylinderError, CountsWhatNoSegmentExplains) {
   Prism p = prism(4);
   p.hierarchy.segment_of[0] = p.hierarchy.segment_of[1] = k_none;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace copse {
 namespace {
@@ -93,16 +94,55 @@ class Frustum {
   double length_ = 0, base_radius_ = 0, top_radius_ = 0;
 };
 
-struct Weighted {
-  Double3 point;
+// A point of a triangle, by its corners' shares, and the share of the area that it stands for.
+struct Sample {
+  std::array<double, 3> corners;
   double weight;
 };
 
-std::array<Weighted, 7> samples_of(const Double3& a, const Double3& b, const Double3& c) {
-  constexpr double k_corner = 1.0 / 20, k_side = 2.0 / 15, k_middle = 9.0 / 20;
-  return {Weighted{a, k_corner},      {b, k_corner},         {c, k_corner},
-          {(a + b) / 2, k_side},      {(b + c) / 2, k_side}, {(c + a) / 2, k_side},
-          {(a + b + c) / 3, k_middle}};
+// The corners first.
+constexpr double k_half = 0.5, k_third = 1.0 / 3;
+constexpr auto k_samples = std::to_array<Sample>({{{1, 0, 0}, 1.0 / 20},
+                                                  {{0, 1, 0}, 1.0 / 20},
+                                                  {{0, 0, 1}, 1.0 / 20},
+                                                  {{k_half, k_half, 0}, 2.0 / 15},
+                                                  {{0, k_half, k_half}, 2.0 / 15},
+                                                  {{k_half, 0, k_half}, 2.0 / 15},
+                                                  {{k_third, k_third, k_third}, 9.0 / 20}});
+
+// The rings that were read: which vertex lies on which.
+class Rings {
+ public:
+  Rings(const Hierarchy& hierarchy, std::size_t vertices)
+      : hierarchy_(hierarchy), ring_of_(vertices, k_none) {
+    for (std::uint32_t r = 0; r + 1 < hierarchy.first_vertex.size(); ++r) {
+      if (hierarchy.radii[r].source == RadiusSource::surface) continue;
+      for (std::uint32_t i = hierarchy.first_vertex[r]; i < hierarchy.first_vertex[r + 1]; ++i) {
+        ring_of_[hierarchy.ring_vertices[i]] = r;
+      }
+    }
+  }
+
+  // How far along the segment of `child` each corner is, if all lie on its two rings: 0 or 1.
+  std::optional<std::array<double, 3>> along(const Triangle& t, std::uint32_t child) const {
+    std::array<double, 3> at{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t ring = ring_of_[t[i]];
+      if (ring == k_none || (ring != child && ring != hierarchy_.radii[child].parent)) return {};
+      at[i] = ring == child ? 1 : 0;
+    }
+    return at;
+  }
+
+ private:
+  const Hierarchy& hierarchy_;
+  std::vector<std::uint32_t> ring_of_;  // one a vertex
+};
+
+// How far a point is from the circle round the axis between two radii that stands as their rings stand.
+double off_circle(const Double3& p, const RadiusNode& parent, const RadiusNode& child, double at) {
+  const double radius = (parent.diameter + at * (child.diameter - parent.diameter)) / 2;
+  return std::abs(distance(p, parent.centre + (child.centre - parent.centre) * at) - radius);
 }
 
 }  // namespace
@@ -111,6 +151,7 @@ CylinderError cylinder_error(const TrunkMesh& trunk, const Hierarchy& hierarchy,
   Distribution of_radius, of_height;
   double area_all = 0, area_explained = 0;
   std::size_t explained = 0;
+  const Rings rings(hierarchy, trunk.positions.size());
   for (std::size_t i = 0; i < trunk.triangles.size(); ++i) {
     const Triangle& t = trunk.triangles[i];
     const Double3 &a = trunk.positions[t[0]], &b = trunk.positions[t[1]], &c = trunk.positions[t[2]];
@@ -118,15 +159,23 @@ CylinderError cylinder_error(const TrunkMesh& trunk, const Hierarchy& hierarchy,
     area_all += area;
     const std::uint32_t s = hierarchy.segment_of[i];
     if (s == k_none || hierarchy.radii[s].parent == k_none) continue;
-    const Frustum frustum(hierarchy.radii[hierarchy.radii[s].parent], hierarchy.radii[s]);
-    const double within = k_explained_within * frustum.larger_radius();
-    if (std::max({frustum.distance_from(a), frustum.distance_from(b), frustum.distance_from(c)}) <= within)
-      ++explained, area_explained += area;
-    for (const Weighted& sample : samples_of(a, b, c)) {
-      const double error = frustum.distance_from(sample.point), r = frustum.radius_at(sample.point);
-      if (r > 0) of_radius.add(error / r, area * sample.weight);
-      if (height > 0) of_height.add(error / height, area * sample.weight);
+    const RadiusNode &child = hierarchy.radii[s], &parent = hierarchy.radii[child.parent];
+    const Frustum frustum(parent, child);
+    const auto along = rings.along(t, s);
+    double worst_corner = 0;
+    for (std::size_t k = 0; k < k_samples.size(); ++k) {
+      const auto& [of, weight] = k_samples[k];
+      const Double3 p = a * of[0] + b * of[1] + c * of[2];
+      double error = frustum.distance_from(p);
+      if (along) {
+        const double at = (*along)[0] * of[0] + (*along)[1] * of[1] + (*along)[2] * of[2];
+        error = std::min(error, off_circle(p, parent, child, at));
+      }
+      if (k < 3) worst_corner = std::max(worst_corner, error);
+      if (const double r = frustum.radius_at(p); r > 0) of_radius.add(error / r, area * weight);
+      if (height > 0) of_height.add(error / height, area * weight);
     }
+    if (worst_corner <= k_explained_within * frustum.larger_radius()) ++explained, area_explained += area;
   }
   CylinderError out;
   out.of_radius = of_radius.result();
