@@ -100,12 +100,12 @@ bool is_corner(const Surface& surface, const Bands& bands, std::uint32_t band) {
   return 2 * bordered < bands.ring(2 * band).size();
 }
 
-// What takes no corner for a point can go on where one was.
+// What takes no corner for a point, and no open ring for a hole, can go on where one was.
 void grow_on(const Surface& surface, Bands& bands) {
   if (is_complete(surface, bands)) return;
   BandGrowth growth(surface, bands);
   growth.start_at_bands(0);
-  growth.run(false);
+  growth.run(true);
 }
 
 Bands without_corners(const Surface& surface, const Bands& all) {
@@ -136,9 +136,8 @@ Bands read_bands(const Surface& surface) {
     Bands by_shape = read_bands(surface, ends, QuadOrder::shape);
     if (by_shape.explained() > bands.explained()) bands = std::move(by_shape);
   }
-  const std::size_t before = bands.triangles.size();
   bands = without_corners(surface, bands);
-  if (bands.triangles.size() < before) grow_on(surface, bands);
+  grow_on(surface, bands);
   return bands;
 }
 
