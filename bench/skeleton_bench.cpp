@@ -50,6 +50,9 @@ std::string measured(const TrunkMesh& trunk, std::span<const std::uint32_t> tria
   std::vector<std::uint32_t> segment_of(surface.triangles.size(), k_none);
   for (std::size_t i = 0; i < triangles.size(); ++i) segment_of[surface.triangle_of[i]] = h.segment_of[i];
   h.segment_of = std::move(segment_of);
+  std::vector<std::uint32_t> local(trunk.positions.size());
+  for (std::uint32_t v = 0; v < surface.vertex.size(); ++v) local[surface.vertex[v]] = v;
+  for (std::uint32_t& v : h.ring_vertices) v = local[v];
   return fmt::format("{:.4f}, {:.1f} ms", fit_of(surface, h).cost(), 1e3 * seconds);
 }
 

@@ -1,4 +1,5 @@
 // Trees whose hierarchy is known: what other generators wrote, and treegrow's with every difficulty by name.
+#include "lib/analysis/measure/cylinder_error.h"
 #include "lib/analysis/trunk/recover.h"
 #include "lib/formats/import/import.h"
 #include "tests/trunk/exactness.h"
@@ -64,6 +65,25 @@ TEST_P(SharedTrees, AreRecoveredExactly) {
 INSTANTIATE_TEST_SUITE_P(Truth, SharedTrees,
                          ::testing::Values("ez_oak_small_ideal.obj", "ez_ash_medium.obj.gz",
                                            "sap_quaking_aspen.obj", "sap_callistemon_quads.obj.gz"),
+                         [](const auto& param) {
+                           const std::string file = param.param;
+                           return file.substr(0, file.find('.'));
+                         });
+
+// No truth is known of these; segments must explain what there is.
+class RealTrees : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(RealTrees, AreExplainedBySegments) {
+  const auto import = import_mesh(k_trees / GetParam());
+  if (!import) GTEST_SKIP() << k_trees << " is not there: the meshes are no part of the repository";
+  const TrunkMesh trunk = make_trunk_mesh(import->mesh, trunk_of(import->mesh));
+  EXPECT_GE(cylinder_error(trunk, recover_hierarchy(trunk), 1).explained_triangles, 0.95);
+}
+
+INSTANTIATE_TEST_SUITE_P(Truth, RealTrees,
+                         ::testing::Values("quaternius_dead_1.obj", "quaternius_pine_5.obj",
+                                           "quaternius_oak_1.obj", "kaykit_tree_dead_large.obj",
+                                           "pt_fork_small.obj"),
                          [](const auto& param) {
                            const std::string file = param.param;
                            return file.substr(0, file.find('.'));

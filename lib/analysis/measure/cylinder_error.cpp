@@ -1,9 +1,10 @@
 #include "lib/analysis/measure/cylinder_error.h"
 
+#include "lib/analysis/rings/ring_circles.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 namespace copse {
 namespace {
@@ -110,48 +111,13 @@ constexpr auto k_samples = std::to_array<Sample>({{{1, 0, 0}, 1.0 / 20},
                                                   {{k_half, 0, k_half}, 2.0 / 15},
                                                   {{k_third, k_third, k_third}, 9.0 / 20}});
 
-// The rings that were read: which vertex lies on which.
-class Rings {
- public:
-  Rings(const Hierarchy& hierarchy, std::size_t vertices)
-      : hierarchy_(hierarchy), ring_of_(vertices, k_none) {
-    for (std::uint32_t r = 0; r + 1 < hierarchy.first_vertex.size(); ++r) {
-      if (hierarchy.radii[r].source == RadiusSource::surface) continue;
-      for (std::uint32_t i = hierarchy.first_vertex[r]; i < hierarchy.first_vertex[r + 1]; ++i) {
-        ring_of_[hierarchy.ring_vertices[i]] = r;
-      }
-    }
-  }
-
-  // How far along the segment of `child` each corner is, if all lie on its two rings: 0 or 1.
-  std::optional<std::array<double, 3>> along(const Triangle& t, std::uint32_t child) const {
-    std::array<double, 3> at{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t ring = ring_of_[t[i]];
-      if (ring == k_none || (ring != child && ring != hierarchy_.radii[child].parent)) return {};
-      at[i] = ring == child ? 1 : 0;
-    }
-    return at;
-  }
-
- private:
-  const Hierarchy& hierarchy_;
-  std::vector<std::uint32_t> ring_of_;  // one a vertex
-};
-
-// How far a point is from the circle round the axis between two radii that stands as their rings stand.
-double off_circle(const Double3& p, const RadiusNode& parent, const RadiusNode& child, double at) {
-  const double radius = (parent.diameter + at * (child.diameter - parent.diameter)) / 2;
-  return std::abs(distance(p, parent.centre + (child.centre - parent.centre) * at) - radius);
-}
-
 }  // namespace
 
 CylinderError cylinder_error(const TrunkMesh& trunk, const Hierarchy& hierarchy, double height) {
   Distribution of_radius, of_height;
   double area_all = 0, area_explained = 0;
   std::size_t explained = 0;
-  const Rings rings(hierarchy, trunk.positions.size());
+  const RingCircles circles(hierarchy, trunk.positions.size());
   for (std::size_t i = 0; i < trunk.triangles.size(); ++i) {
     const Triangle& t = trunk.triangles[i];
     const Double3 &a = trunk.positions[t[0]], &b = trunk.positions[t[1]], &c = trunk.positions[t[2]];
@@ -161,7 +127,7 @@ CylinderError cylinder_error(const TrunkMesh& trunk, const Hierarchy& hierarchy,
     if (s == k_none || hierarchy.radii[s].parent == k_none) continue;
     const RadiusNode &child = hierarchy.radii[s], &parent = hierarchy.radii[child.parent];
     const Frustum frustum(parent, child);
-    const auto along = rings.along(t, s);
+    const auto along = circles.along(t, s);
     double worst_corner = 0;
     for (std::size_t k = 0; k < k_samples.size(); ++k) {
       const auto& [of, weight] = k_samples[k];

@@ -1,6 +1,9 @@
 #include "lib/analysis/trunk/fit.h"
 
+#include "lib/analysis/rings/ring_circles.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace copse {
@@ -21,6 +24,7 @@ Fit fit_of(const Surface& surface, const Hierarchy& hierarchy) {
   DoubleBox box;
   for (const Double3& p : surface.positions) box.grow(p);
   const double size = length(box.extent());
+  const RingCircles circles(hierarchy, surface.positions.size());
   double all = 0, owned = 0, off = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
@@ -32,7 +36,13 @@ Fit fit_of(const Surface& surface, const Hierarchy& hierarchy) {
     if (s == k_none || hierarchy.radii[s].parent == k_none) continue;
     ++count, owned += area;
     const RadiusNode &top = hierarchy.radii[s], &base = hierarchy.radii[top.parent];
-    off += area / 3 * (off_frustum(a, base, top) + off_frustum(b, base, top) + off_frustum(c, base, top));
+    const auto along = circles.along(t, s);
+    const std::array corners{&a, &b, &c};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      double from = off_frustum(*corners[k], base, top);
+      if (along) from = std::min(from, off_circle(*corners[k], base, top, (*along)[k]));
+      off += area / 3 * from;
+    }
   }
   Fit fit;
   if (owned > 0 && size > 0) fit.distance = off / owned / size;
