@@ -183,7 +183,7 @@ class RingWalk {
     }
   }
 
-  // The radius that most of the ring lies on, k_none when less than half of it lies on placed rings.
+  // The radius that most of the ring lies on, k_none when no more than half of it lies on placed rings.
   std::uint32_t find_seat(std::uint32_t node) const {
     std::vector<std::uint32_t> holders;
     std::size_t held = 0;
@@ -194,7 +194,7 @@ class RingWalk {
       }
       held += holders.size() > before;
     }
-    if (2 * held < ring(node).size()) return k_none;
+    if (2 * held <= ring(node).size()) return k_none;
     std::ranges::sort(holders);
     std::uint32_t best = k_none;
     std::ptrdiff_t most = 0;

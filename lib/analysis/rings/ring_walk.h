@@ -8,9 +8,9 @@ namespace copse {
 
 // The root is the lowest of the thickest ends. Where limbs meet (a site):
 // - a ring that lies on two rings with a band between them is the hole that a limb grows out of, from
-//   whichever side the walk comes; so is one that lies half or more on rings that are nearer the root: the
-//   seat of a limb on its parent and no radius of its own; what follows it hangs on the radius that it lies
-//   on;
+//   whichever side the walk comes; so is one that lies by more than half on rings that are nearer the root:
+//   the seat of a limb on its parent and no radius of its own; what follows it hangs on the radius that it
+//   lies on;
 // - where three or more limbs meet round vertices that no ring holds, these get a radius between them
 //   (RadiusSource::surface), where the limbs' axes meet;
 // - the thickest and straightest limb carries on the branch.
