@@ -9,6 +9,9 @@ the median of many) under each degree of trust; and what culling costs a frame, 
 
 Then treeplay on a million trees of 8 species, with levels and impostors, on 8 x 8 km: its stage "open", culling along a path by every
 hierarchy, and a picture from eye height, written to PICTURE where that variable is set.
+
+Rows "full" ask for trees with spacing on ground that holds half of them (`fewer`): what has to be found is that no gap is left.
+"before graphics" is a run that is refused (--show skeleton) when all is read and decided and no graphics are open yet.
 """
 import json
 import os
@@ -31,6 +34,8 @@ def page(count, placement):
             t["slope"] = {"max": 60}
         if placement == "spacing":
             t["spacing"] = 2.5
+        if placement == "full":
+            t |= {"spacing": 28.5 * (100_000 / count) ** 0.5, "fewer": True}
         types.append(t)
     return {"seed": 1, "block_trees": ["kd", "r"], "terrain": {"size": [1023, 1023], "samples": [1024, 1024], "faults": {"count": 200, "first": 1, "last": 0.05, "smooth": 2}}, "types": types}
 
@@ -99,6 +104,11 @@ def player(folder, count):
         report, _ = play(folder, "--cull", by, "--path", f"{folder}/path.json", "--count", "4", "--size", "32x18", "--samples", "1", "--unlit")
         cells = table(report, "culling, the mean of a frame")[0]
         print(f"{by:>10s} " + " ".join(f"{c:>{w}s}" for c, w in zip(cells, (8, 8, 8, 8, 9, 9, 8))), flush=True)
+    before = os.times()
+    for _ in range(3):
+        subprocess.run(["treeplay", f"{folder}/forest.eco", "--headless", "-q", "--show", "skeleton"], stderr=subprocess.DEVNULL)
+    after = os.times()
+    print(f"\nbefore graphics: {(after.children_user + after.children_system - before.children_user - before.children_system) / 3:.3f} CPU s, the mean of 3 runs")
     report, cpu = play(folder, *EYE, "--size", "960x540", "--samples", "4", "--frames", f"{folder}/eye.png", "--stats", f"{folder}/s.csv")
     stages = {s["name"]: s["seconds"] for s in report["stages"]}
     head, row = [line.split(",") for line in (folder / "s.csv").read_text().splitlines()]
@@ -119,10 +129,12 @@ def main():
         subprocess.run(["treeprep", str(folder / "tree.glb"), "-o", str(folder / "tree.stree"), "-q"], check=True)
         print(f"{'instances':>10s} {'placed by':>10s} {'bytes each':>10s} {'s':>7s} {'CPU s':>7s} {'MB':>7s} {'floor s':>8s} {'position m':>11s} {'axis rad':>9s} {'foot':>8s}  stages, s")
         rows = [(n, "cells", "packed") for n in SIZES if n <= largest]
-        rows += [(min(1_000_000, largest), p, e) for p, e in (("cells", "exact"), ("rules", "packed"))] + [(min(20_000, largest), "spacing", "packed")]
+        rows += [(min(1_000_000, largest), p, e) for p, e in (("cells", "exact"), ("rules", "packed"))] + [(min(n, largest), p, "packed") for n, p in ((20_000, "spacing"), (1_000_000, "spacing"), (100_000, "full"))]
         for count, placement, encoding in rows:
             seconds, cpu, report, size = run(folder, count, placement, encoding)
-            stages = ", ".join(f"{s['name']} {s['seconds']:.2f}" for s in report["stages"] if s["seconds"] >= 0.005)
+            planted = sum(int(row[3]) for row in table(report, "types"))
+            stages = f"{planted} planted, " if planted < count else ""
+            stages += ", ".join(f"{s['name']} {s['seconds']:.2f}" for s in report["stages"] if s["seconds"] >= 0.005)
             print(f"{count:>10d} {placement:>10s} {24 if encoding == 'packed' else 48:>10d} {seconds:>7.2f} {cpu:>7.2f} {size / 1e6:>7.1f} {floor(folder, size):>8.2f} "
                   f"{error(report, 'stored position'):>11.1e} {error(report, AXIS):>9.1e} {error(report, 'foot off the ground'):>8.1e}  {stages}", flush=True)
             subprocess.run(["probe_ecosystem", str(folder / "f.eco")], check=True)

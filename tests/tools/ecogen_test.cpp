@@ -59,8 +59,8 @@ TEST_F(Ecogen, ErrorsNameThePlaceAndWhatIsAllowed) {
   };
   for (const Case& c :
        {Case{"/types/1/scale", R"({"min":2,"max":1})", "types[1].scale.max: 1 is below min, 2", "swap"},
-        {"/types/1/scale", "-1", "types[1].scale: -1", "a number above 0"},
-        {"/types/1/scale", "0", "types[1].scale: 0", "above 0"},
+        {"/types/1/scale", "-1", "types[1].scale: -1", "a number from 1e-30"},
+        {"/types/1/scale", "0", "types[1].scale: 0", "from 1e-30"},
         {"/types/0/count", "-3", "types[0].count: -3", "a whole number from 0"},
         {"/types/0/count", "1.5", "types[0].count: 1.5", "a whole number"},
         {"/types/0/scal", "1", "types[0]: 'scal' is unknown here", "did you mean 'scale'"},
@@ -179,8 +179,9 @@ TEST_F(Ecogen, TintsGoIntoAGlbAndNowhereElse) {
             std::string::npos);
 }
 
+// As small as a page takes, and yet a float of the file.
 TEST_F(Ecogen, TinyScalesComeBackFromCsv) {
-  page_["types"][0]["scale"] = 5e-8;
+  page_["types"][0]["scale"] = 1e-30;
   ASSERT_EQ(run({"--export", file("i.csv")}).status, 0);
   page_["types"][0]["count"] = page_["types"][1]["count"] = 0;
   const Outcome o = run({"--instances", file("i.csv")});
@@ -188,7 +189,7 @@ TEST_F(Ecogen, TinyScalesComeBackFromCsv) {
   EXPECT_EQ(load().instance_count(), 250u);
   write_text(file("i.csv"), "type,x,z,scale\na,1,1,0\n");
   EXPECT_NE(run({"--instances", file("i.csv")})
-                .err.find("line 2: scale '0' is not allowed; give it a number above 0"),
+                .err.find("line 2: scale '0' is not allowed; give it a number from 1e-31"),
             std::string::npos);
 }
 

@@ -123,14 +123,13 @@ class TableReader {
   template <class Number>
   Result<void> number(const std::string& text, Column column, double low, double high, Number& out) const {
     if (text.empty()) return {};
-    const bool above = column == c_scale;  // as on a page: 0 is no size
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || !(value >= low && value <= high) ||
-        (above && value == low) || (std::is_integral_v<Number> && value != std::floor(value)))
+        (std::is_integral_v<Number> && value != std::floor(value)))
       return wrong(fmt::format("{} '{}' is not allowed", k_columns[column], text),
-                   fmt::format("give it a {}number {} {} to {}", std::is_integral_v<Number> ? "whole " : "",
-                               above ? "above" : "from", low, high));
+                   fmt::format("give it a {}number from {} to {}", std::is_integral_v<Number> ? "whole " : "",
+                               low, high));
     out = static_cast<Number>(value);
     return {};
   }
@@ -165,7 +164,7 @@ class TableReader {
     };
     take(c_x, -1e9, 1e9, p.x), take(c_y, -1e9, 1e9, y), take(c_z, -1e9, 1e9, p.z);
     take(c_head, -1e9, 1e9, p.head), take(c_pitch, -1e9, 1e9, p.pitch), take(c_roll, -1e9, 1e9, p.roll);
-    take(c_scale, 0, 1e6, p.scale);
+    take(c_scale, 1e-31, 1e6, p.scale);  // a page takes 1e-30, and what is stored may round below it
     take(c_motion, 0, 4294967295.0, p.motion);
     take(c_red, 0, 255, p.tint[0]), take(c_green, 0, 255, p.tint[1]), take(c_blue, 0, 255, p.tint[2]);
     if (state) state = material(f[c_trunk], c_trunk, p.trunk_material);

@@ -27,13 +27,17 @@ bool Spacing::any_near(double x, double z, double radius, const Test& test) cons
         if (std::any_of(discs.begin(), discs.end(), test)) return true;
       continue;
     }
+    const auto in_bucket = [&](std::int64_t c, std::int64_t r) {
+      const auto found = level.buckets.find(key(c, r));
+      return found != level.buckets.end() && std::any_of(found->second.begin(), found->second.end(), test);
+    };
+    // What is in the way is mostly near: its own bucket first.
+    const std::int64_t own_x = bucket(x, level.bucket), own_z = bucket(z, level.bucket);
+    if (in_bucket(own_x, own_z)) return true;
     const std::int64_t x1 = bucket(x + reach, level.bucket), z1 = bucket(z + reach, level.bucket);
     for (std::int64_t r = bucket(z - reach, level.bucket); r <= z1; ++r)
-      for (std::int64_t c = bucket(x - reach, level.bucket); c <= x1; ++c) {
-        const auto found = level.buckets.find(key(c, r));
-        if (found != level.buckets.end() && std::any_of(found->second.begin(), found->second.end(), test))
-          return true;
-      }
+      for (std::int64_t c = bucket(x - reach, level.bucket); c <= x1; ++c)
+        if ((c != own_x || r != own_z) && in_bucket(c, r)) return true;
   }
   return false;
 }

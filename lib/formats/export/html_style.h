@@ -23,11 +23,11 @@ h1{margin:2px 0 4px;font-size:2.1rem;line-height:1.2;font-weight:650;letter-spac
 .into{margin:0;color:var(--soft);overflow-wrap:anywhere}
 h2{margin:48px 0 14px;font-size:1.25rem;font-weight:650;letter-spacing:-.005em}
 h3{margin:28px 0 8px;font-size:1rem;font-weight:600}
-.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(150px,1fr));gap:12px;margin:28px 0 0;padding:0}
+.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,160px),1fr));gap:12px;margin:28px 0 0;padding:0}
 .figures div{background:var(--card);border:1px solid var(--rule);border-radius:10px;padding:14px 16px 12px}
 .figures dt{color:var(--soft);font-size:.82rem}
-.figures dd{margin:0;font-size:1.35rem;font-weight:600;line-height:1.3;white-space:nowrap}
-.figures dd+dd{font-size:.82rem;font-weight:400;color:var(--soft);white-space:normal;overflow-wrap:anywhere}
+.figures dd{margin:0;font-size:1.2rem;font-weight:600;line-height:1.3;overflow-wrap:anywhere}
+.figures dd+dd{font-size:.82rem;font-weight:400;color:var(--soft)}
 .scroll{overflow-x:auto;background:var(--card);border:1px solid var(--rule);border-radius:10px}
 table{border-collapse:collapse;width:100%;font-size:.92rem}
 th,td{padding:8px 16px;text-align:left;vertical-align:baseline;border-top:1px solid var(--rule)}
