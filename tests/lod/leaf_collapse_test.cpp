@@ -25,6 +25,14 @@ TEST(LeafCollapse, RunsFromAllLeavesToOne) {
   EXPECT_GT(s.steps(), 100u) << "a few triangles less a step";
 }
 
+TEST(LeafCollapse, WhereNoTriangleHoldsBothHalvesOfASquareOneHalfStays) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const Spectrum s = collapse_spectrum(LeafyTree{.leaves = 1, .groups = 1, .seed = seed}.make());
+    ASSERT_EQ(s.counts[s.steps()], 1u);
+    EXPECT_GE(area(drawn_state(s, s.steps())) / area(drawn_state(s, 0)), 0.499);
+  }
+}
+
 TEST(LeafCollapse, BeginsWithTheTreesOwnLeaves) {
   const Tree tree = LeafyTree{}.make();
   const DrawnMesh full = drawn_leaves(tree), state = drawn_state(collapse_spectrum(tree), 0);

@@ -101,6 +101,16 @@ TEST(LeafOcclusion, CountsWhatIsCoveredAndWhatIsSeen) {
   EXPECT_NEAR(both.seen, 0.5 * both.covered, 1);
 }
 
+// Pictures are at least 16 pixels wide, but not of so many: 25 pixels a leaf and view would be kept in lists.
+TEST(LeafOcclusion, ManyLeavesAsLargeAsTheCrownDoNotTakeMoreThanTheMostSamples) {
+  constexpr std::uint32_t k_leaves = 30'000;
+  const Crown crown = cloud(k_leaves, 1.5);
+  const Occlusion o = crown.run({.coverage = 0.98, .least = 2 * k_leaves - 20});
+  EXPECT_LT(o.covered, 1 << 24);
+  EXPECT_GT(o.covered, 36.0 * k_leaves) << "no fewer than were asked for";
+  EXPECT_EQ(o.gone.size(), 10u);
+}
+
 TEST(LeafOcclusion, WhatIsKnownBesideDecidesAmongEquals) {
   Crown crown;
   for (int i = 0; i < 4; ++i) crown.square({}, 1, 0);

@@ -407,6 +407,13 @@ class Collapse {
       if (!good && sum.area > 6 * mean_area_) search(out.successor, like, area, judge);
     }
     if (out.successor.drawn.corners == 0) consider(between(sum, *look), *look);
+    // Where nothing larger fits into the hull, no cut one should lose more than the one that goes.
+    const auto keep = [&](std::uint32_t k) {
+      const Node& n = nodes_[alive_[k]];
+      if (n.drawn.frond == nullptr && out.successor.drawn.area() < n.drawn.area()) consider({n.drawn, k}, n);
+    };
+    keep(match.host);
+    if (gone.size() == 2) keep(match.guests.front());
     out.successor.cost += vanish;
     out.fits = out.successor.drawn.area() > 0.99 * area;
     out.successor.displacement = displaced(out.members, out.successor);

@@ -11,7 +11,8 @@
 namespace copse {
 namespace {
 
-constexpr int k_widest = 1024;  // pixels of a picture
+constexpr int k_narrowest = 16, k_least = 2, k_widest = 1024;  // pixels of a picture
+constexpr double k_most_samples = 1 << 24;                     // of leaves that are all as large as the crown
 constexpr std::uint64_t k_turn = 77, k_control_turn = 78;
 // Views that have no say in what goes but in when to stop: leaves are chosen for what the others happen not
 // to see.
@@ -147,12 +148,18 @@ class Greedy {
     // Seen from all round a leaf shows half of its area on the mean.
     const double pixel = std::sqrt(area * options_.views /
                                    (2 * options_.samples * double(std::max<std::size_t>(1, leaves_.size()))));
-    auto eyes =
-        eyes_round(centre, radius, std::isfinite(pixel) ? pixel : 0, k_turn, options_.views, box, k_widest);
+    // Leaves as large as the crown cover whole pictures: of very many such leaves these are smaller.
+    const double pictures =
+        (options_.views + k_control_views) * double(std::max<std::size_t>(1, leaves_.size()));
+    const int narrowest =
+        std::clamp(static_cast<int>(std::sqrt(k_most_samples / pictures)), k_least, k_narrowest);
+    const auto round = [&](std::uint64_t turn, int views) {
+      return eyes_round(centre, radius, std::isfinite(pixel) ? pixel : 0, turn, views, box, narrowest,
+                        k_widest);
+    };
+    auto eyes = round(k_turn, options_.views);
     deciding_ = eyes.size();
-    for (const LeafEye& eye : eyes_round(centre, radius, std::isfinite(pixel) ? pixel : 0, k_control_turn,
-                                         k_control_views, box, k_widest))
-      eyes.push_back(eye);
+    for (const LeafEye& eye : round(k_control_turn, k_control_views)) eyes.push_back(eye);
     layers_.resize(eyes.size());
     tbb::parallel_for(std::size_t{0}, eyes.size(),
                       [&](std::size_t v) { layers_[v].draw(leaves_, centre, eyes[v]); });

@@ -43,7 +43,8 @@ struct Occlusion {
 };
 
 // The leaves of a crown in the ball. Deterministic; pictures are drawn in parallel. O(samples x leaves), some
-// dozens of nanoseconds and eight bytes a sample.
+// dozens of nanoseconds and eight bytes a sample; of leaves that are as large as the crown no more than 2^24
+// samples, or four a view.
 Occlusion leaves_by_occlusion(std::span<const ViewedLeaf> leaves, const Double3& centre, double radius,
                               const DoubleBox& box, const OcclusionOptions& options);
 

@@ -71,26 +71,29 @@ LeafEye cropped(const OrthographicView& view, const DoubleBox& box) {
 
 namespace {
 
-int picture_size(double radius, double pixel, int widest) {
-  const double wanted = pixel > 0 && radius > 0 ? 2 * radius / pixel : k_narrowest;
-  return static_cast<int>(std::clamp<double>(std::ceil(wanted), k_narrowest, widest));
+int picture_size(double radius, double pixel, int narrowest, int widest) {
+  const double wanted = pixel > 0 && radius > 0 ? 2 * radius / pixel : narrowest;
+  return static_cast<int>(std::clamp<double>(std::ceil(wanted), narrowest, widest));
 }
 
 }  // namespace
 
 std::vector<LeafEye> eyes_round(const Double3& centre, double radius, double pixel, std::uint64_t turn,
-                                int views, const DoubleBox& box, int widest) {
+                                int views, const DoubleBox& box, int narrowest, int widest) {
   std::vector<LeafEye> eyes;
   for (const Double3& d : half_sphere(turn, views))
-    eyes.push_back(cropped(view_of_sphere(centre, radius, d, picture_size(radius, pixel, widest)), box));
+    eyes.push_back(
+        cropped(view_of_sphere(centre, radius, d, picture_size(radius, pixel, narrowest, widest)), box));
   return eyes;
 }
 
 LeafViews::LeafViews(const Double3& centre, double radius, double pixel, std::uint64_t turn, int views,
                      const DoubleBox& box)
-    : eyes_(eyes_round(centre, radius, pixel, turn, std::clamp(views, 1, k_most_views), box, k_widest)),
+    : eyes_(eyes_round(centre, radius, pixel, turn, std::clamp(views, 1, k_most_views), box, k_narrowest,
+                       k_widest)),
       centre_(centre),
-      pixel_(view_of_sphere(centre, radius, {0, 0, 1}, picture_size(radius, pixel, k_widest)).pixel) {
+      pixel_(view_of_sphere(centre, radius, {0, 0, 1}, picture_size(radius, pixel, k_narrowest, k_widest))
+                 .pixel) {
   first_.push_back(0);
   for (const LeafEye& eye : eyes_)
     first_.push_back(first_.back() +

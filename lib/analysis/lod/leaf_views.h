@@ -25,9 +25,9 @@ struct ViewedLeaf {
 
 // `views` sides of the ball, or what of it is in the box unless that is empty, evenly over one half of the
 // sphere; `turn` picks one of many orientations of the set. `pixel`: side of a pixel; the pictures are kept
-// between 16 and `widest` pixels wide, whatever it says.
+// between `narrowest` and `widest` pixels wide, whatever it says.
 std::vector<LeafEye> eyes_round(const Double3& centre, double radius, double pixel, std::uint64_t turn,
-                                int views, const DoubleBox& box, int widest);
+                                int views, const DoubleBox& box, int narrowest, int widest);
 
 class LeafViews {
  public:
