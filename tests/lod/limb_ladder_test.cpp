@@ -46,6 +46,17 @@ TEST(LimbLadder, TrianglesFallAndEachSavingCostsMoreThanTheOneBefore) {
   }
 }
 
+// What a polygon costs is how far it lies from the one of the mesh, not how much farther from a circle: a
+// triangle saves a quarter of a square's sides and errs by all of its own.
+TEST(LimbLadder, AWindingSquareStemNeverBecomesThreeSided) {
+  Tube tube;
+  std::uint32_t before = k_none;
+  for (int i = 0; i < 33; ++i) before = tube.add_ring({0.2 * std::sin(i * 0.7), i * 0.5, 0}, 0.3, 4, before);
+  const std::vector<LimbRung> ladder = ladder_of(tree_of(tube));
+  ASSERT_GT(ladder.size(), 4u);
+  for (const LimbRung& rung : ladder) EXPECT_NE(rung.sides, 3u) << rung.triangles;
+}
+
 // A winding stem that tapers and has one sharp bend.
 Tree winding() {
   Tube tube;

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 namespace copse::lodbake {
 namespace {
@@ -75,11 +77,12 @@ double LevelPictures::error(const TriedLevel& level) const {
   DrawnMesh mesh = drawn_state(spectra_.trunk, level.trunk_steps);
   append(mesh, drawn_elements(spectra_.leaves, level.leaves));
   const std::vector<OrthographicView> sides = views(size);
-  double sum = 0;
-  for (std::size_t i = 0; i < source_[size].size(); ++i) {
+  std::vector<double> squares(source_[size].size());
+  tbb::parallel_for(std::size_t{0}, squares.size(), [&](std::size_t i) {
     const double e = picture_rmse(draw_picture(mesh, looks_, sides[i], 2), source_[size][i]);
-    sum += e * e;
-  }
+    squares[i] = e * e;
+  });
+  const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
   return sides.empty() ? 0 : std::sqrt(sum / static_cast<double>(sides.size()));
 }
 

@@ -159,7 +159,8 @@ class Walk {
   Rung rung(std::size_t gone, std::size_t k) const {
     Rung r{.gone = gone, .sides = sides_[k]};
     r.triangles = shape_.triangles(shape_.ring_count() - gone, r.sides);
-    const double rough = std::max(0.0, roughness(r.sides) - roughness(sides_.front()));
+    // The mesh's own polygon lies off the circle too, but elsewhere: a square becomes no triangle for free.
+    const double rough = k == 0 ? 0 : std::hypot(roughness(r.sides), roughness(sides_.front()));
     r.cost = rings_.costs[gone] + girth_ * rough + rough_;
     r.bound = rings_.bounds[gone] + 2 * rough * thickest_ + 3 * residual_;
     return r;
