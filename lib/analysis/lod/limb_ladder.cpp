@@ -11,6 +11,9 @@ namespace {
 constexpr double k_rung_ratio = 0.75;  // of the triangles of the rung before: closer rungs are left out
 constexpr double k_ribbon = 0.45, k_spike = 0.7;  // rms distance from a tube of radius 1
 
+// Of leaves whose twig went elsewhere, in square metres of silhouette a square metre of leaf.
+constexpr double k_left_behind = 0.2;
+
 // How far a regular k-gon lies from the circle of its perimeter, rms, as a share of the radius.
 double roughness(std::uint32_t sides) {
   return sides == 2 ? k_ribbon : sides == 1 ? k_spike : 1.7 / (static_cast<double>(sides) * sides);
@@ -42,8 +45,9 @@ double projected_bend(const Double3& from, const Double3& to) {
 
 class RingOrder {
  public:
-  RingOrder(const LimbShape& shape, const std::vector<std::uint8_t>& forks, RemovalOrder by)
-      : shape_(shape), forks_(forks), by_(by) {
+  RingOrder(const LimbShape& shape, const std::vector<std::uint8_t>& forks, RemovalOrder by,
+            const HangingLeaves& leaves)
+      : shape_(shape), forks_(forks), by_(by), leaves_(leaves) {
     const auto n = static_cast<std::uint32_t>(shape.ring_count());
     for (std::uint32_t i = 0; i < n; ++i) before_.push_back(i - 1), after_.push_back(i + 1);
     version_.assign(n, 0), interval_.assign(n, 0);
@@ -69,12 +73,15 @@ class RingOrder {
     if (by_ == RemovalOrder::angle) return weight * bend(b - a, c - b);
     if (by_ == RemovalOrder::projected_angle) return weight * projected_bend(b - a, c - b);
     if (by_ == RemovalOrder::diameter) return weight * shape_.ring(i).radius;
-    const double extra = shape_.area_error(before_[i], after_[i]) - interval_[before_[i]] - interval_[i];
+    const double extra = error(before_[i], after_[i]) - interval_[before_[i]] - interval_[i];
     return std::max(extra, 0.0) * weight;
+  }
+  double error(std::size_t a, std::size_t b) const {
+    return shape_.area_error(a, b) + k_left_behind * shape_.left_behind(a, b, leaves_.area, leaves_.hold);
   }
   void remove(std::uint32_t i, std::priority_queue<Removal>& queue, std::uint32_t n) {
     const std::uint32_t a = before_[i], b = after_[i];
-    const double joined = shape_.area_error(a, b);
+    const double joined = error(a, b);
     costs.push_back(std::max(costs.back(), total_ += joined - interval_[a] - interval_[i]));
     bounds.push_back(std::max(bounds.back(), shape_.largest_error(a, b)));
     interval_[a] = joined;
@@ -89,6 +96,7 @@ class RingOrder {
   const LimbShape& shape_;
   const std::vector<std::uint8_t>& forks_;
   RemovalOrder by_;
+  HangingLeaves leaves_;
   std::vector<std::uint32_t> before_, after_, version_;
   std::vector<double> interval_;  // error of the interval that begins at a ring
   double total_ = 0;
@@ -203,8 +211,9 @@ double spike_roughness(const LimbShape& shape) {
 }  // namespace
 
 std::vector<LimbRung> limb_ladder(const LimbShape& shape, const std::vector<std::uint8_t>& forks,
-                                  std::uint32_t full, double vanish, RemovalOrder order) {
-  const RingOrder rings(shape, forks, order);
+                                  std::uint32_t full, double vanish, RemovalOrder order,
+                                  const HangingLeaves& leaves) {
+  const RingOrder rings(shape, forks, order, leaves);
   const Walk walk(shape, rings);
   std::vector<Rung> all = walk.rungs();
   const double length = shape.length_between(0, shape.ring_count() - 1);

@@ -5,6 +5,7 @@
 #include "lib/analysis/lod/limb_shape.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace copse {
@@ -25,12 +26,20 @@ struct LimbRung {
   double bound = 0;  // metres
 };
 
+// The leaves of a limb. When its axis goes elsewhere they would hang in the air, so others are made of them
+// that do not: worse ones, for good.
+struct HangingLeaves {
+  std::span<const double> area;  // square metres, one entry a ring (limb_leaves); none: no leaves
+  double hold = 0;               // metres that the axis may go aside under them
+};
+
 // `forks`: for every ring whether other limbs grow there (such a ring counts twice). `full`: triangles of
 // full detail. `vanish`, `order`: see TrunkRadiiOptions; whatever the order, costs and bounds are those of
 // what is left out. Rungs by strictly descending triangles, below `full`; costs grow at least in proportion
 // to what they save (a convex ladder); the last one is nothing. O(rings log rings).
 std::vector<LimbRung> limb_ladder(const LimbShape& shape, const std::vector<std::uint8_t>& forks,
                                   std::uint32_t full, double vanish,
-                                  RemovalOrder order = RemovalOrder::silhouette);
+                                  RemovalOrder order = RemovalOrder::silhouette,
+                                  const HangingLeaves& leaves = {});
 
 }  // namespace copse

@@ -385,20 +385,33 @@ Float2 LimbShape::texcoord(std::size_t i, std::size_t interval, double angle, do
   return list.front().at_from;
 }
 
+// Off the chord counts; along it a ring may slide.
+double LimbShape::off_chord(std::size_t a, std::size_t b, std::size_t i) const {
+  const Double3 d = rings_[i].centre - rings_[a].centre;
+  return length(across_of(d, normalized(rings_[b].centre - rings_[a].centre, {0, 0, 0})));
+}
+
+double LimbShape::left_behind(std::size_t a, std::size_t b, std::span<const double> hanging,
+                              double hold) const {
+  if (hanging.empty() || b <= a + 1) return 0;
+  const std::size_t inner = b - a - 1, stride = (inner + k_samples - 1) / k_samples;
+  std::size_t taken = 0;
+  double sum = 0;
+  for (std::size_t i = a + 1; i < b; i += stride, ++taken)
+    if (hanging[i] > 0 && off_chord(a, b, i) > hold) sum += hanging[i];
+  return sum * static_cast<double>(inner) / static_cast<double>(taken);
+}
+
 void LimbShape::errors(std::size_t a, std::size_t b, double& area, double& largest) const {
   area = largest = 0;
   if (b <= a + 1) return;
-  const Double3 from = rings_[a].centre, to = rings_[b].centre;
   const double span = along_[b] - along_[a];
   const std::size_t inner = b - a - 1, stride = (inner + k_samples - 1) / k_samples;
   std::size_t taken = 0;
   double sum = 0;
-  const Double3 chord = normalized(to - from, {0, 0, 0});
   for (std::size_t i = a + 1; i < b; i += stride, ++taken) {
     const double w = span > 0 ? (along_[i] - along_[a]) / span : 0;
-    const Double3 d = rings_[i].centre - from;
-    // Off the chord counts; along it a ring may slide.
-    const double off = length(d - chord * dot(d, chord));
+    const double off = off_chord(a, b, i);
     const double thick =
         std::abs(rings_[i].radius - (rings_[a].radius + w * (rings_[b].radius - rings_[a].radius)));
     // What is seen of a limb that moved aside is what it covers no more and what it covers anew: no more than

@@ -62,6 +62,9 @@ class LimbShape {
   double area_error(std::size_t a, std::size_t b) const;
   // The largest distance of the same.
   double largest_error(std::size_t a, std::size_t b) const;
+  // Of what hangs on the rings that it leaves out (`hanging`, one entry a ring, or none at all), how much is
+  // on rings farther than `hold` metres from it. Looks at no more than 16 of them.
+  double left_behind(std::size_t a, std::size_t b, std::span<const double> hanging, double hold) const;
 
   // Triangles of the tube through the kept rings (ascending, first and last among them): `sides` >= 3 is a
   // closed tube, 2 a flat ribbon.
@@ -111,6 +114,7 @@ class LimbShape {
   Double3 sample(std::size_t i, double angle) const;
   Float2 texcoord(std::size_t i, std::size_t interval, double angle, double towards) const;
   void errors(std::size_t a, std::size_t b, double& area, double& largest) const;
+  double off_chord(std::size_t a, std::size_t b, std::size_t i) const;
 
   const Tree& tree_;
   const PartTriangles& trunk_;

@@ -1,6 +1,7 @@
 #include "lib/analysis/lod/trunk_radii.h"
 
 #include "lib/analysis/lod/limb_ladder.h"
+#include "lib/analysis/lod/limb_leaves.h"
 #include "lib/analysis/lod/limb_shape.h"
 #include "lib/analysis/lod/spectrum_builder.h"
 
@@ -16,6 +17,9 @@ namespace {
 using Face = std::array<std::uint32_t, 3>;
 
 constexpr double k_golden_angle = 2.399963229728653;
+// Of the tree's height: what a twig may go aside under its leaves. They float at half of that
+// (floating_leaves), but seldom lie just where the twig goes away from.
+constexpr double k_hold = 0.02;
 
 // An element of one limb. Its life counts rungs of the limb: 0 is full detail, n what the nth rung makes.
 struct Piece {
@@ -272,7 +276,7 @@ bool bears_leaves(const Tree& tree, const LimbChain& limb) {
 
 Ladder climb(const Tree& tree, const std::vector<Double3>& centres, const PartTriangles& trunk,
              const LimbChain& limb, std::uint32_t number, const std::vector<std::uint8_t>& forks,
-             const TrunkRadiiOptions& options, Pieces& pieces) {
+             const HangingLeaves& leaves, const TrunkRadiiOptions& options, Pieces& pieces) {
   const LimbShape shape(tree, centres, trunk, limb);
   LimbTubes tubes(tree, trunk, limb, shape, number, pieces);
   Ladder ladder{.rungs = {}, .full = tubes.add_full_detail(), .thickest = 0};
@@ -280,7 +284,7 @@ Ladder climb(const Tree& tree, const std::vector<Double3>& centres, const PartTr
     ladder.thickest = std::max(ladder.thickest, shape.ring(i).radius);
   if (ladder.full == 0) return ladder;
   const double vanish = bears_leaves(tree, limb) ? options.vanish_with_leaves : options.vanish;
-  ladder.rungs = limb_ladder(shape, forks, ladder.full, vanish, options.order);
+  ladder.rungs = limb_ladder(shape, forks, ladder.full, vanish, options.order, leaves);
   for (std::uint32_t r = 0; r < ladder.rungs.size(); ++r) {
     tubes.take(ladder.rungs[r], r + 1);
     ladder.rungs[r].kept = {};
@@ -326,10 +330,12 @@ Spectrum trunk_by_radii(const Tree& tree, const TrunkRadiiOptions& options) {
   }
   const std::vector<Double3> centres = absolute_centres(tree);
   const auto forks = fork_rings(tree, limbs);
+  const auto leaves = limb_leaves(tree, limbs, centres);
+  const double hold = tree.header.bounds.empty() ? 0 : k_hold * tree.header.bounds.extent().y;
   Pieces pieces;
   std::vector<Ladder> ladders;
   for (std::uint32_t l = 0; l < limbs.size(); ++l)
-    ladders.push_back(climb(tree, centres, trunk, limbs[l], l, forks[l], options, pieces));
+    ladders.push_back(climb(tree, centres, trunk, limbs[l], l, forks[l], {leaves[l], hold}, options, pieces));
   std::vector<Move> moves = order_moves(limbs, ladders);
   if (options.order == RemovalOrder::diameter) sort_by_diameter(limbs, ladders, moves);
   return in_order(trunk, pieces, ladders, moves);
