@@ -55,6 +55,19 @@ TEST(Section, OfAnOpenGutterIsFinite) {
   EXPECT_LT(c.radius, 1);
 }
 
+TEST(Section, AHeapOfTrianglesIsNotCutForEver) {
+  const TrunkMesh soup = random_soup(50, 4000, 1);
+  const Surface s = surface_of(soup);
+  Sections sections(s);
+  std::vector<std::uint32_t> seeds(s.triangles.size());
+  std::iota(seeds.begin(), seeds.end(), 0u);
+  int cuts = 0;
+  RingCircle c;
+  while (cuts < 5000 && sections.cut({0.5, 0.5, 0.5}, {0, 1, 0}, seeds, c)) ++cuts;
+  EXPECT_GT(cuts, 100);
+  EXPECT_LT(cuts, 5000);
+}
+
 TEST(Section, OfAnythingIsFiniteAndEnds) {
   for (std::uint32_t seed = 0; seed < 100; ++seed) {
     const TrunkMesh soup = random_soup(15, 60, seed);

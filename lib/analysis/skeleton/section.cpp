@@ -8,6 +8,11 @@
 
 namespace copse {
 
+Sections::Sections(const Surface& surface)
+    : s_(surface),
+      seen_(surface.triangles.size(), 0),
+      steps_left_(k_section_steps + k_section_steps_of_triangle * surface.triangles.size()) {}
+
 Double3 Sections::crossing(std::uint32_t a, std::uint32_t b) const {
   if (a > b) std::swap(a, b);  // the same point from both sides
   const Double3 &pa = s_.positions[a], &pb = s_.positions[b];
@@ -115,17 +120,23 @@ RingCircle Sections::circle_round(std::span<const Double3> points, const Double3
 
 bool Sections::cut(const Double3& point, const Double3& normal, std::span<const std::uint32_t> seeds,
                    RingCircle& circle) {
+  if (steps_left_ == 0) return false;
   look_along(point, normal);
   ++stamp_;
   Outline outline, best;
+  std::size_t steps = seeds.size();
   for (const std::uint32_t t : seeds) {
-    if (seen_[t] == stamp_ || !trace(t, outline)) continue;
+    if (seen_[t] == stamp_) continue;
+    const bool is_cut = trace(t, outline);
+    steps += outline.points.size();
+    if (!is_cut) continue;
     const bool better = best.points.empty() || (outline.around && !best.around) ||
                         (outline.around == best.around && outline.around
                              ? outline.length < best.length
                              : outline.around == best.around && outline.length > best.length);
     if (better) std::swap(best, outline);
   }
+  steps_left_ -= std::min(steps, steps_left_);
   if (best.points.empty()) return false;
   circle = circle_of(best);
   return is_finite(circle.centre);

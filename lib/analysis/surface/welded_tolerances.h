@@ -61,6 +61,12 @@ inline constexpr double k_same_corner = 1e-9;
 // How much an outline may turn, to and fro, against once round, and still count by its turns.
 inline constexpr double k_nearly_convex = 1.5;
 
+// Triangles that all cuts through a surface may pass, and how many more for each of its triangles: a limb is
+// sampled a few thousand times and has a few hundred sides; what is cut through thousands of triangles
+// thousands of times is no limb. A fifth of a second.
+inline constexpr std::size_t k_section_steps = std::size_t{1} << 21;
+inline constexpr std::size_t k_section_steps_of_triangle = 64;
+
 // --- skeleton_limbs
 
 // Radii of the limb that it starts in: what reaches less far from the limb's axis is a bump on it. Its
