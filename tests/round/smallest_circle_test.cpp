@@ -70,5 +70,20 @@ TEST(SmallestCircle, OfASymmetricSetIsBoundedFromBelowByItself) {
   EXPECT_NEAR(c.lower_radius, 1 + 1e-3, 1e-12);
 }
 
+TEST(SmallestCircle, FromLikelyPointsIsTheSameCircle) {
+  Random random(9);
+  for (int n = 1; n < 40; ++n) {
+    std::vector<Vec2<double>> points;
+    for (int i = 0; i < n; ++i) points.push_back({random.around(0, 1), random.around(0, 0.3)});
+    const SmallestCircle plain = smallest_circle(points);
+    for (int k = 0; k < 6; ++k) {
+      std::vector<std::uint32_t> likely;
+      for (int i = 0; i < std::min(n, 1 + k % 3); ++i)
+        likely.push_back(static_cast<std::uint32_t>((k * 7 + i) % n));
+      EXPECT_NEAR(smallest_circle(points, likely).radius, plain.radius, 1e-12) << n;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace copse

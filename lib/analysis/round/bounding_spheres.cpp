@@ -77,7 +77,7 @@ BoundingSphere<double> extremal_sphere(const PointCloud& cloud) {
 }
 
 SupportedSphere smallest_sphere(const PointCloud& cloud) {
-  const MinimalSphere found = minimal_sphere_and_support(cloud.points);
+  const MinimalSphere found = minimal_sphere_and_support(cloud.points, cloud.box);
   const double r = found.lower_radius * (1 - k_rounding);
   return {{found.sphere, 4 * std::numbers::pi / 3 * r * r * r}, found.support};
 }

@@ -34,13 +34,18 @@ struct Tube {
   Double3 direction;
   Double3 centre;  // of the circle, across the direction
   double radius = 0, low = 0, high = 0;
-  double lower_radius = 0;    // of the circle round what holds it
-  Double3 first, last;        // points at the ends
+  double lower_radius = 0;  // of the circle round what holds it
+  Double3 first, last;      // points at the ends
+  SmallestCircle circle;    // of the points projected
+  std::span<const std::uint32_t> holders() const {
+    return {circle.support.data(), static_cast<std::size_t>(circle.supports)};
+  }
   double support_extent = 0;  // along the direction, of the points that hold the circle
   double volume() const { return volume_of(radius, high - low); }
 };
 
-Tube tube_along(std::span<const Double3> points, const Double3& direction) {
+// `near`: of the same points along a direction like this one.
+Tube tube_along(std::span<const Double3> points, const Double3& direction, const Tube* near = nullptr) {
   Tube t;
   t.direction = direction;
   const Double3 u = any_normal(direction), v = cross(direction, u);
@@ -53,16 +58,36 @@ Tube tube_along(std::span<const Double3> points, const Double3& direction) {
     if (h > t.high) t.high = h, t.last = p;
     flat.push_back({dot(p, u), dot(p, v)});
   }
-  const SmallestCircle circle = smallest_circle(flat);
-  t.radius = circle.radius, t.lower_radius = circle.lower_radius;
-  t.centre = u * circle.centre.x + v * circle.centre.y;
+  t.circle = near != nullptr ? smallest_circle(flat, near->holders()) : smallest_circle(flat);
+  t.radius = t.circle.radius, t.lower_radius = t.circle.lower_radius;
+  t.centre = u * t.circle.centre.x + v * t.circle.centre.y;
   double low = t.high, high = t.low;
-  for (int i = 0; i < circle.supports; ++i) {
-    const double h = dot(points[circle.support[i]], direction);
+  for (const std::uint32_t i : t.holders()) {
+    const double h = dot(points[i], direction);
     low = std::min(low, h), high = std::max(high, h);
   }
   t.support_extent = std::max(0.0, high - low);
   return t;
+}
+
+// What no tube along another direction is below: that of the few points that hold this one.
+double volume_of_holders(std::span<const Double3> points, const Tube& t, const Double3& direction) {
+  const std::span<const std::uint32_t> holders = t.holders();
+  const auto apart = [&](std::size_t i, std::size_t j) {
+    const Double3 d = points[holders[i]] - points[holders[j]];
+    const double along = dot(d, direction);
+    return std::max(0.0, dot(d, d) - along * along);
+  };
+  double square = 0;  // of the circle's diameter
+  if (holders.size() == 2) square = apart(0, 1);
+  if (holders.size() == 3) {
+    const double a = apart(0, 1), b = apart(1, 2), c = apart(2, 0);
+    square = std::max({a, b, c});
+    // Of an acute triangle the circle through its corners: 2 r = abc / (2 area), 16 area^2 by Heron.
+    const double heron = 2 * (a * b + b * c + c * a) - (a * a + b * b + c * c);
+    if (a + b + c > 2 * square && heron > 0) square = 4 * a * b * c / heron;
+  }
+  return std::numbers::pi / 4 * square * std::abs(dot(t.last - t.first, direction));
 }
 
 // Its ends tell the direction of the axis as well as doubles can, and are moved out by what that leaves.
@@ -101,16 +126,24 @@ std::vector<Double3> starts_for(const ConvexHull& hull) {
 
 // Steps in the tangent plane, halved when none of them gains (pattern search): the volume has creases, along
 // which the directions of the last gain are tried first.
-Tube descend(std::span<const Double3> points, Tube best, double step, double smallest) {
+// Given up when it is about to end far above what is known.
+Tube descend(std::span<const Double3> points, Tube best, double step, double smallest,
+             double known = std::numeric_limits<double>::infinity()) {
+  constexpr double k_hopeless = 1.15, k_late = 0.04;
+  constexpr double k_sure = 1 + 1e-9;  // of the holders' volume, which cancels
+  const double late = k_late * step;
   Double3 last;
   for (int round = 0; round < k_rounds && step > smallest; ++round) {
+    if (step < late && best.volume() > k_hopeless * known) break;
     const Double3 u = any_normal(best.direction), v = cross(best.direction, u);
     const Double3 before = best.direction;
     const Double3 along = last - best.direction * dot(last, best.direction);
     const double diagonal = std::numbers::sqrt2 / 2;
     for (const Double3& d : {length(along) > 0 ? normalized(along) : u, u, v, -u, -v, (u + v) * diagonal,
                              (u - v) * diagonal, (v - u) * diagonal, -(u + v) * diagonal}) {
-      const Tube t = tube_along(points, normalized(best.direction + d * step));
+      const Double3 direction = normalized(best.direction + d * step);
+      if (volume_of_holders(points, best, direction) > best.volume() * k_sure) continue;
+      const Tube t = tube_along(points, direction, &best);
       if (t.volume() < best.volume() * (1 - k_rounding)) {
         last = t.direction - before;
         best = t;
@@ -130,12 +163,14 @@ double first_step(const Tube& t) {
 
 // The least on a circle of directions about this one: a crease that a few fixed directions would miss crosses
 // every small circle.
-Tube least_around(std::span<const Double3> points, const Double3& direction, double step) {
+Tube least_around(std::span<const Double3> points, const Tube& middle, double step) {
   constexpr int k_angles = 12, k_sections = 12, k_valleys = 2;
   constexpr double k_golden = 0.6180339887498949, k_apart = 2 * std::numbers::pi / k_angles;
+  const Double3& direction = middle.direction;
   const Double3 u = any_normal(direction), v = cross(direction, u);
   const auto at = [&](double angle) {
-    return tube_along(points, normalized(direction + (u * std::cos(angle) + v * std::sin(angle)) * step));
+    return tube_along(points, normalized(direction + (u * std::cos(angle) + v * std::sin(angle)) * step),
+                      &middle);
   };
   std::array<double, k_angles> volume;
   Tube best;
@@ -171,7 +206,7 @@ Tube least_around(std::span<const Double3> points, const Double3& direction, dou
 
 Tube polish(std::span<const Double3> points, Tube best, double step, double smallest) {
   for (int round = 0; round < k_rounds && step > smallest; ++round) {
-    const Tube t = least_around(points, best.direction, step);
+    const Tube t = least_around(points, best, step);
     const bool gains = t.volume() < best.volume() * (1 - k_rounding);
     if (gains) best = t;
     step *= gains ? 1.5 : 0.5;
@@ -211,12 +246,15 @@ Tube search(const ConvexHull& hull, const Deadline& deadline) {
   const bool small = hull.vertices.size() < k_small_hull;
   std::vector<Double3> starts;
   std::vector<Tube> ends{tubes[0]};
+  double known = tubes[0].volume();
   for (std::size_t i = 0; i < tubes.size() && starts.size() < (small ? k_kept_small : k_kept); ++i) {
     const auto near = [&](const Double3& e) { return std::abs(dot(e, tubes[i].direction)) > 0.98; };
     if (std::any_of(starts.begin(), starts.end(), near)) continue;
     if (deadline.has_passed()) break;
     starts.push_back(tubes[i].direction);
-    ends.push_back(descend(hull.vertices, tubes[i], first_step(tubes[i]), 1e-3 * first_step(tubes[i])));
+    const double step = first_step(tubes[i]);
+    ends.push_back(descend(hull.vertices, tubes[i], step, 1e-3 * step, known));
+    known = std::min(known, ends.back().volume());
   }
   std::stable_sort(ends.begin(), ends.end(), smaller);
   return best_polished(hull.vertices, ends, small ? k_polished_small : k_polished, deadline);

@@ -312,9 +312,13 @@ bool PivotLoop::should_include(const SupportBall& ball, double farthest) {
 }
 
 MinimalSphere minimal_sphere_and_support(std::span<const Double3> points) {
-  if (points.empty()) return {};
   DoubleBox box;
   for (const Double3& p : points) box.grow(p);
+  return minimal_sphere_and_support(points, box);
+}
+
+MinimalSphere minimal_sphere_and_support(std::span<const Double3> points, const DoubleBox& box) {
+  if (points.empty()) return {};
   const Frame frame = frame_of(box);
   if (needs_no_frame(frame)) return minimal_in(points, NoFrame{}, 1);
   return minimal_in(points, frame, frame.scale);

@@ -65,6 +65,8 @@ struct MinimalSphere {
 // near). Expected O(n): some five passes over all points and a few over the outermost. Not one bit depends on
 // the order of the points.
 MinimalSphere minimal_sphere_and_support(std::span<const Double3> points);
+// The same of points whose box is known.
+MinimalSphere minimal_sphere_and_support(std::span<const Double3> points, const DoubleBox& box);
 Sphere minimal_sphere(std::span<const Double3> points);
 
 // The same of balls (radii >= 0).

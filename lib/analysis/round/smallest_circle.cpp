@@ -79,12 +79,18 @@ std::uint32_t farthest_from(const Double2& centre, std::span<const Double2> poin
 
 }  // namespace
 
-SmallestCircle smallest_circle(std::span<const Double2> points) {
+SmallestCircle smallest_circle(std::span<const Double2> points, std::span<const std::uint32_t> likely) {
   SmallestCircle best;
   if (points.empty()) return best;
   SupportCircle circle(points);
   double squared = 0, grown = 0;
-  circle.include(farthest_from(points[0], points, squared));
+  for (const std::uint32_t i : likely) {
+    // What is inside does not hold it.
+    const double radius = circle.radius();
+    if (circle.size() == 0 || squared_distance(circle.centre(), points[i]) > radius * radius)
+      circle.include(i);
+  }
+  if (likely.empty()) circle.include(farthest_from(points[0], points, squared));
   best.radius = std::numeric_limits<double>::infinity();
   for (int idle = 0;;) {
     const std::uint32_t far = farthest_from(circle.centre(), points, squared);

@@ -23,7 +23,9 @@ struct SmallestCircle {
 };
 
 // Finite points, |p| about 1. The radius is within 1e-12 of the least, or within the rounding of the
-// coordinates. None: all 0. O(n) a step, some five steps; nothing is allocated.
-SmallestCircle smallest_circle(std::span<const Vec2<double>> points);
+// coordinates. None: all 0. O(n) a step, some five steps, one or two from points that are `likely` (indices,
+// at most three) to hold it; nothing is allocated.
+SmallestCircle smallest_circle(std::span<const Vec2<double>> points,
+                               std::span<const std::uint32_t> likely = {});
 
 }  // namespace copse
