@@ -47,6 +47,7 @@ class SweptDescent {
 
   // Every point is within rectangle.r of the rectangle, but for the rounding of the distance.
   SweptFit fit() const;
+  const Axes& frame() const { return fit_.frame; }
   double cost() const { return cost_of(kind_, fit()); }
   // About what going on can bring the cost down to: the points that it works on hold it there.
   double least_cost() const;

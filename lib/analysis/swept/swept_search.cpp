@@ -17,6 +17,8 @@ constexpr int k_rough_rounds = 2;
 // Starts that are descended from. A small hull has few, deep valleys, and is quick.
 constexpr std::size_t k_small_hull = 60;
 constexpr std::size_t k_kept_small = 20, k_kept = 12, k_lozenge_kept_small = 32, k_lozenge_kept = 16;
+// Of a rough descent and an end: it would come to the same one.
+constexpr double k_same_end_frame = 0.9998;
 constexpr double k_same_end = 1e-7;  // costs of descents that came to one end
 // Times the least of the starts, which all hold the points: what is larger has not been seen to end as the
 // least.
@@ -227,11 +229,11 @@ std::vector<SweptFit> promising_starts(Swept kind, std::span<const Double3> poin
     if (!near && kept.size() < wanted) kept.push_back(f);
   };
   // First one a valley: of what is regular, the many images of one would leave no place for another.
-  for (auto f = all.begin(); f != all.end(); ++f) {
+  for (auto f = all.begin(); f != all.end() && f->cost <= k_far_off * all.front().cost; ++f) {
     const bool lowest = std::none_of(all.begin(), f, [&](const Start& lower) {
       return likeness(kind, lower.fit.frame, f->fit.frame) > k_same_valley;
     });
-    if (lowest && f->cost <= k_far_off * all.front().cost) keep(f->fit);
+    if (lowest) keep(f->fit);
   }
   for (const Start& f : all) {
     if (f.cost <= k_off * all.front().cost) keep(f.fit);
@@ -326,11 +328,16 @@ SweptFit search_around(Swept kind, std::span<const Double3> points, const Deadli
   SweptFit best = scouts.front().fit();
   best.rectangle.r = reach_of(points, best);
   least = std::min(all ? least : std::numeric_limits<double>::infinity(), cost_of(kind, best));
-  std::vector<double> ends;  // round some
+  std::vector<double> ends;   // round some
+  std::vector<Axes> valleys;  // whose ends are known
   for (SweptDescent& descent : scouts) {
     if (deadline.has_passed()) return best;
     if (descent.least_cost() > least) continue;
+    const Axes& rough = descent.frame();
+    const auto leads_there = [&](const Axes& end) { return likeness(kind, end, rough) > k_same_end_frame; };
+    if (std::any_of(valleys.begin(), valleys.end(), leads_there)) continue;
     descent.run({.hopeless = least});
+    valleys.push_back(descent.frame());
     if (!all) {
       const double end = descent.cost();
       const auto same = [&](double other) { return std::abs(end - other) <= k_same_end * other; };
