@@ -53,6 +53,7 @@ bool is_of_ordinary_size(const NamedPoints& set) {
 
 TEST(Invariance, NoSearchDependsOnTheTurnThePlaceOrTheScaleOfTheBattery) {
   const Axes frame = turned(k_world_axes, {0.31, -0.73, 1.2});
+  bool shrinks = false;
   for (const NamedPoints& set : float32_battery()) {
     if (!is_of_ordinary_size(set)) continue;
     const double size = size_of(set.points);
@@ -66,10 +67,9 @@ TEST(Invariance, NoSearchDependsOnTheTurnThePlaceOrTheScaleOfTheBattery) {
     const double far = 1e7 * std::max(size, 1e-3);
     expect_same(base, searched(scaled(set.points, 1, {far, -far, 0.3 * far})), 1, 1e-8, size,
                 set.name + " far away");
-    for (const double scale : {1e-30, 1e30}) {
-      if (reach * scale > 1e38) continue;
-      expect_same(base, searched(scaled(set.points, scale)), scale, 1e-15, size, set.name + " scaled");
-    }
+    shrinks = !shrinks || reach > 1e8;  // beyond float32 otherwise
+    const double scale = shrinks ? 1e-30 : 1e30;
+    expect_same(base, searched(scaled(set.points, scale)), scale, 1e-15, size, set.name + " scaled");
   }
 }
 
