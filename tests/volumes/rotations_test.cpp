@@ -109,21 +109,23 @@ TEST(Rotations, DoNotHideTheLeastVolumesRoundPrismsAsHighAsTheirRadius) {
   for (const int sides : {10, 12, 20}) expect_drums_least_volumes(sides, 1, sides % 4 < 2);
 }
 
-TEST(Rotations, DoNotChangeTheLeastCylindersRoundPlates) {
+TEST(Rotations, DoNotChangeTheLeastCylindersAndLozengesRoundPlates) {
   for (const double thick : {1e-2, 1e-4, 1e-6}) {
     Random random(static_cast<std::uint64_t>(-std::log10(thick)));
     for (const int n : {6, 14, 30}) {
       Points points;
       for (int i = 0; i < n; ++i)
         points.push_back({random.around(0, 1), random.around(0, 1), random.around(0, thick)});
-      const double base = least_volumes(points)[2];
+      const auto base = least_volumes(points);
       for (int k = 0; k < 4; ++k) {
         const Axes frame =
             turned(k_world_axes, {random.around(0, 2), random.around(0, 2), random.around(0, 2)});
         Points there;
         for (const Double3& p : points) there.push_back(into(frame, p));
+        const auto volumes = least_volumes(there);
+        EXPECT_NEAR(volumes[3] / base[3], 1, 1e-3) << thick << ", " << n;
         // Ends that are `thick` apart tell the axis to a rounding of that, by which the rim rises and falls.
-        EXPECT_NEAR(least_volumes(there)[2] / base, 1, 1e-6 + 1e-16 / thick / thick) << thick << ", " << n;
+        EXPECT_NEAR(volumes[2] / base[2], 1, 1e-6 + 1e-16 / thick / thick) << thick << ", " << n;
       }
     }
   }

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double k_enough = 1e-4;  // of the volume: less need not be sought
 constexpr int k_lengths = 1024;    // that are tried for the other end
+constexpr int k_short = 128;       // shortest ones, that are tried first
 constexpr int k_places = 64;       // and for the first one
 constexpr double k_longer = 1e-5;  // of the length: what its places may add
 constexpr int k_widenings = 6;     // of the grid, where an end has passed a power of two
@@ -37,19 +38,22 @@ class AxisSearch {
     step_ = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) {
       if (axis.direction[i] != 0) step_ = std::min(step_, unit[i] / std::abs(axis.direction[i]));
+      half_along_ += unit[i] * std::abs(axis.direction[i]) / 2;
     }
     half_ = length(unit) / 2;
     const bool is_needle = half_ > 0.1 * k_enough * axis.radius;
     if (is_needle) room_ = std::min(k_places * step_, k_longer * axis.length);
-    if (axis.reach > 0) room_ += 2 * half_;  // the rounding of the first end, along the axis
+    if (axis.reach > 0) room_ += 2 * half_along_;  // the rounding of the first end
   }
 
   GridAxis run() {
-    // No shorter a vector of some thousand tells the direction so well that its planes hold what has no
-    // length.
+    // Directions along the grid, or of few bits, are told by short vectors.
+    try_lengths(axis_.length, k_short);
+    // Of others no shorter a vector of some thousand tells the direction so well that its planes hold what
+    // has no length.
     double from = std::max(axis_.length, std::sqrt(2 * axis_.reach * step_ / k_places));
     double more = k_lengths * step_;
-    for (int i = 0; i < k_doublings && !found_; ++i, from += more, more *= 2) try_lengths(from);
+    for (int i = 0; i < k_doublings && !found_; ++i, from += more, more *= 2) try_lengths(from, k_lengths);
     if (!found_) return {to_grid(axis_.low, unit_), to_grid(axis_.low + axis_.direction * from, unit_)};
     const Double3 a = first_end();
     return {a, a + edge_};
@@ -61,9 +65,9 @@ class AxisSearch {
     return r * r * (along + (axis_.reach > 0 ? 0 : 4.0 / 3.0 * r));
   }
 
-  void try_lengths(double from) {
+  void try_lengths(double from, int lengths) {
     const double enough = volume(0, axis_.length) * (1 + k_enough);
-    for (int n = 0; n < k_lengths; ++n) {
+    for (int n = 0; n < lengths; ++n) {
       const Double3 d = to_grid(axis_.direction * (from + room_ + n * step_), unit_);
       const double along = dot(d, axis_.direction), off = length(copse::across(d, axis_.direction));
       if (found_ && volume(0, along) >= least_) return;
@@ -81,7 +85,7 @@ class AxisSearch {
   // On the line before its beginning, as far as the edge has length to spare.
   Double3 first_end() const {
     const double spare = length(edge_) - axis_.length - 2 * rim_;
-    const double margin = axis_.reach > 0 ? half_ : 0, free = std::max(0.0, spare - 2 * margin);
+    const double margin = axis_.reach > 0 ? half_along_ : 0, free = std::max(0.0, spare - 2 * margin);
     const Double3 off = copse::across(edge_, axis_.direction);
     const int places = std::clamp(static_cast<int>(std::min(free / step_, 1.0 * k_places)) + 1, 1, k_places);
     Double3 best;
@@ -98,9 +102,10 @@ class AxisSearch {
 
   const AxisToRound& axis_;
   Double3 unit_;
-  double step_ = 0;  // along the axis to the next point of the grid
-  double half_ = 0;  // a point of the grid is no farther
-  double room_ = 0;  // by which the ends are farther apart than they must be, to choose their place
+  double step_ = 0;        // along the axis to the next point of the grid
+  double half_along_ = 0;  // by so much rounding moves a point along the axis at most
+  double half_ = 0;        // a point of the grid is no farther
+  double room_ = 0;        // by which the ends are farther apart than they must be, to choose their place
   bool found_ = false;
   double least_ = 0, rim_ = 0;
   Double3 edge_;

@@ -23,6 +23,8 @@ constexpr std::size_t k_polished = 1, k_polished_small = 4;  // ends that are de
 constexpr int k_rounds = 100;                                // of a descent; some 40 do
 constexpr double k_rounding = 1e-12;
 constexpr int k_double_bits = 53;
+constexpr double k_least_length =
+    0x1p-28;  // of the radius: shorter axes lose their direction when they are placed
 constexpr double k_least_reach = 0x1p-52;  // so that a segment or a point has ends that tell its axis
 
 double volume_of(double radius, double height) {
@@ -92,10 +94,10 @@ double volume_of_holders(std::span<const Double3> points, const Tube& t, const D
 
 // Its ends tell the direction of the axis as well as doubles can, and are moved out by what that leaves.
 Cylinder<double> cylinder_of(const Tube& t) {
-  const double length = t.high - t.low;
   const double reach = std::max(t.radius, k_least_reach);
-  const GridAxis ends =
-      grid_axis({t.centre + t.direction * t.low, t.direction, length, t.radius, reach}, k_double_bits);
+  const double length = std::max(t.high - t.low, k_least_length * reach);
+  const Double3 low = t.centre + t.direction * ((t.high + t.low - length) / 2);
+  const GridAxis ends = grid_axis({low, t.direction, length, t.radius, reach}, k_double_bits);
   return {ends.a, ends.b, t.radius};
 }
 

@@ -1,6 +1,8 @@
 #include "lib/analysis/swept/minimal_lozenge.h"
 
+#include "lib/analysis/boxes/minimal_box.h"
 #include "lib/analysis/boxes/minimal_rectangle.h"
+#include "lib/analysis/hull/principal_axes.h"
 #include "lib/analysis/swept/lozenge.h"
 #include "lib/analysis/swept/minimal_capsule.h"
 #include "lib/analysis/swept/swept_search.h"
@@ -17,6 +19,26 @@ Lozenge<double> rectangle_around(const ConvexHull& hull) {
   DoubleBox box;
   for (const Double3& p : hull.vertices) box.grow(into(axes, p));
   return placed({box.min.x, box.max.x, box.min.y, box.max.y, box.centre().z, 0}, axes);
+}
+
+// Thinner than this, of its width, it is a plate.
+constexpr double k_plate = 1e-2;
+
+bool is_plate(std::span<const Double3> points) {
+  const std::array<double, 3> v = principal_axes(points).variances;
+  return v[2] < k_plate * k_plate * v[1];
+}
+
+// The axes of the least box, the thinnest last.
+Axes axes_of_least_box(const ConvexHull& hull, const Deadline& deadline) {
+  MinimalBoxOptions search;
+  search.deadline = deadline;
+  const OrientedBox<double> box = minimal_box(hull, search).volume;
+  int thin = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (box.half_extents[i] < box.half_extents[thin]) thin = i;
+  }
+  return {box.axes[(thin + 1) % 3], box.axes[(thin + 2) % 3], box.axes[thin]};
 }
 
 }  // namespace
@@ -41,6 +63,12 @@ BoundedFit<Lozenge<double>> minimal_lozenge(const ConvexHull& hull, const Capsul
   take(swept_segment);
   if (options.deadline.has_passed()) return best;
   SweptFit fit = search_around(Swept::lozenge, points, options.deadline);
+  if (is_plate(points)) {
+    const Axes axes = axes_of_least_box(hull, options.deadline);
+    take(lozenge_in_frame(points, axes));
+    const SweptFit in_it = descend_around(Swept::lozenge, points, axes);
+    if (in_it.volume() < fit.volume()) fit = in_it;
+  }
   if (options.gap < std::numeric_limits<double>::infinity()) {
     const Lozenge<double> whole = enclosing(placed(fit.rectangle, fit.frame), hull.boundary);
     SweptBoundOptions how = options;

@@ -287,16 +287,14 @@ class TurnsAcross {
 };
 
 // What is regular about an axis spreads equally across it, and may have its least lozenge across that axis,
-// in one of many narrow valleys of turns about it and of radii. A plate has a valley a side of its outline,
-// and what is turned out of its plane tells nothing of them.
+// in one of many narrow valleys of turns about it and of radii.
 std::vector<SweptFit> regular_starts(std::span<const Double3> points, const PrincipalAxes& spread) {
-  constexpr double k_equal = 1e-3, k_plate = 1e-3;
+  constexpr double k_equal = 1e-3;
   constexpr std::size_t k_wanted = 8;  // an axis
   std::vector<SweptFit> out;
   for (int k = 0; k < 3; ++k) {
     const double u = spread.variances[(k + 1) % 3], v = spread.variances[(k + 2) % 3];
-    const bool across_plate = k == 2 && spread.variances[2] < k_plate * spread.variances[1];
-    if (std::abs(u - v) > k_equal * u && !across_plate) continue;
+    if (std::abs(u - v) > k_equal * u) continue;
     const std::vector<SweptFit> valleys = TurnsAcross(points, spread.axes, k).valleys(k_wanted);
     out.insert(out.end(), valleys.begin(), valleys.end());
   }
