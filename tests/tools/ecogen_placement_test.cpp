@@ -216,6 +216,21 @@ TEST_F(Ecogen, WhereTheGroundIsTooFullForADensityItSaysSo) {
   EXPECT_NE(full.err.find("the density asks for 1050"), std::string::npos) << full.err;
 }
 
+// A dozen trees are never where a map asks for a tenth of a tree: that is chance, and no fault of the ground.
+TEST_F(Ecogen, FewTreesOnMuchGroundAreNotSaidToFillIt) {
+  Image image{.width = 16, .height = 1, .rgba = {}};
+  for (int i = 0; i < 64; ++i) image.rgba.push_back(static_cast<std::uint8_t>(i % 4 == 3 ? 255 : 4 * i));
+  ASSERT_TRUE(write_image(file("d.png"), image));
+  page_["types"].erase(1);
+  page_["types"][0].merge_patch(Json::parse(R"({"scale": 1, "density": "d.png", "spacing": 0.5})"));
+  for (const int count : {1, 12, 100}) {
+    page_["types"][0]["count"] = count;
+    const Outcome o = run();
+    ASSERT_EQ(o.status, 0);
+    EXPECT_EQ(o.err.find("the ground is full"), std::string::npos) << o.err;
+  }
+}
+
 TEST_F(Ecogen, AScaleMapNeedsARangeOfScales) {
   page_["types"][1]["scale_map"] = "s.png";
   EXPECT_NE(refusal().find("types[1].scale_map: scale has no range"), std::string::npos);

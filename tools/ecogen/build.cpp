@@ -244,8 +244,10 @@ class Builder {
   }
 
   void tell_population(const Population& p) {
-    Table table{
-        "types", {"type", "asked for", "by hand", "planted", "larger than their cell", "did not fit"}, {}};
+    Table table{"types",
+                {"type", "asked for", "by hand", "planted", "larger than their cell", "did not fit",
+                 "had to leave their part of the density"},
+                {}};
     std::uint64_t crowded = 0;
     for (std::size_t t = 0; t < plans_.size(); ++t) {
       const TypeCounts& c = p.types[t];
@@ -258,7 +260,7 @@ class Builder {
       table.rows.push_back({scene_.types[t].name, std::to_string(plans_[t].count),
                             std::to_string(plans_[t].manual.size()),
                             std::to_string(c.placed + plans_[t].manual.size()), std::to_string(c.crowded),
-                            std::to_string(c.missing)});
+                            std::to_string(c.missing), std::to_string(c.moved)});
       if (c.overlapping > 0)
         context_.warn(fmt::format(
             "{}: {} by hand overlap others by hand at this spacing; move them, or lower spacing or scale",

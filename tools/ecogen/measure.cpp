@@ -14,7 +14,7 @@
 namespace copse::ecogen {
 namespace {
 
-// What the histogram of a density may be off by, besides the trees that a border between two parts cuts off.
+// What the histogram of a density may be off by, and so many trees may have left their part of it unsaid.
 constexpr double k_histogram_error = 0.02;
 
 constexpr std::size_t k_most_samples = 20000;  // the largest of so many is known well enough
@@ -54,11 +54,13 @@ void tell_densities(std::span<const TypePlan> plans, const Population& populatio
       got += s.got;
       covered = std::max(covered, s.covered);
     }
-    const double noise = 2 * static_cast<double>(shares.size()) / static_cast<double>(plans[t].count);
-    if (asked > 0 && histogram_error(shares) > k_histogram_error + noise)
+    // Few trees are off by chance: what counts is that there was no room for them.
+    const auto moved = static_cast<double>(population.types[t].moved);
+    if (asked > 0 && moved > k_histogram_error * static_cast<double>(plans[t].count) &&
+        histogram_error(shares) > k_histogram_error)
       context.warn(fmt::format(
           "{}: where its density is highest the ground is full: {} stand there, the density asks for {:.0f} "
-          "(discs cover up to {:.0f} % of it, at random they can about 55 %); the others stand where it is "
+          "(discs cover up to {:.0f} % of it, and no more fit at random); the others stand where it is "
           "thinner; lower count, spacing or scale, or the map's contrast",
           plans[t].name, got, asked, 100 * covered));
   }

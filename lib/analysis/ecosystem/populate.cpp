@@ -230,7 +230,9 @@ class Planter {
       wanted.progress = [&](double share) {
         progress_((static_cast<double>(number) + share) / static_cast<double>(of));
       };
-    out_.types[t].missing = spread_apart(wanted, field, spreader, test, stream(t, stream_place), spacing_);
+    const ApartCounts counts = spread_apart(wanted, field, spreader, test, stream(t, stream_place), spacing_);
+    out_.types[t].missing = counts.missing;
+    out_.types[t].moved = counts.moved;
     if (out_.types[t].missing > 0 && !p.fewer)
       return refuse("",
                     fmt::format("{}: {} asked for, there is room for {} at this spacing", p.name, p.count,

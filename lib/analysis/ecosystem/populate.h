@@ -55,6 +55,7 @@ struct TypeCounts {
   std::uint64_t crowded = 0;      // reach out of their cell: no promise that they do not touch
   std::uint64_t overlapping = 0;  // by hand, with spacing: discs that overlap one by hand before them
   std::uint64_t missing = 0;      // did not fit, with `fewer`
+  std::uint64_t moved = 0;        // of a type with spacing: its part of the density was full (spread_apart.h)
   std::vector<DensityShare> by_density{};  // of a type with spacing
 };
 

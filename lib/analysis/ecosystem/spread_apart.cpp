@@ -135,19 +135,20 @@ class Apart {
         random_(random),
         room_(wanted, discs) {}
 
-  std::uint64_t spread() {
+  ApartCounts spread() {
     std::vector<std::uint64_t> left = try_own_pieces();
-    if (left.empty()) return 0;
+    if (left.empty()) return {};
     std::vector<Group> groups = groups_of(left);
     left = {};
     const auto all = static_cast<double>(2 * groups.size());
-    std::uint64_t searched = 0;
-    while (true) {
+    std::uint64_t searched = 0, own = 0;  // own: found room among the pieces of their group
+    for (bool first = true;; first = false) {
       for (Group& g : groups) {
         search(g, random_.fork(wanted_.count + 1 + searched++));
         tell(0.5 + 0.5 * static_cast<double>(searched) / all);
       }
-      if (groups.size() == 1) return groups[0].waiting.size();
+      if (first) own = placed_;
+      if (groups.size() == 1) return {groups[0].waiting.size(), placed_ - own};
       groups = joined(std::move(groups));
     }
   }
@@ -158,6 +159,7 @@ class Apart {
   }
 
   void put(std::uint64_t disc, const Disc& at) {
+    ++placed_;
     room_.add(at);
     wanted_.place(disc, {at.x, at.z});
   }
@@ -304,13 +306,14 @@ class Apart {
   const PlacementTest& test_;
   const Random& random_;
   Room room_;
+  std::uint64_t placed_ = 0;
 };
 
 }  // namespace
 
-std::uint64_t spread_apart(const DiscsApart& wanted, const DensityField& field, const Spreader& spreader,
-                           const PlacementTest& test, const Random& random, Spacing& discs) {
-  if (wanted.count == 0) return 0;
+ApartCounts spread_apart(const DiscsApart& wanted, const DensityField& field, const Spreader& spreader,
+                         const PlacementTest& test, const Random& random, Spacing& discs) {
+  if (wanted.count == 0) return {};
   return Apart(wanted, field, spreader, test, random, discs).spread();
 }
 

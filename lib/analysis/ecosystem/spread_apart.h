@@ -34,9 +34,14 @@ struct DiscsApart {
   std::function<void(std::uint64_t disc, const GroundPlace& at)> place;  // is called for each that found room
 };
 
-// Adds the discs to those that are in the way already. Answers how many found no room. `spreader` and `test`
-// are of `field`; spreader.total() > 0.
-std::uint64_t spread_apart(const DiscsApart& wanted, const DensityField& field, const Spreader& spreader,
-                           const PlacementTest& test, const Random& random, Spacing& discs);
+struct ApartCounts {
+  std::uint64_t missing = 0;  // found no room
+  std::uint64_t moved = 0;    // found it elsewhere than in the 32 pieces that theirs is one of
+};
+
+// Adds the discs to those that are in the way already. `spreader` and `test` are of `field`;
+// spreader.total() > 0.
+ApartCounts spread_apart(const DiscsApart& wanted, const DensityField& field, const Spreader& spreader,
+                         const PlacementTest& test, const Random& random, Spacing& discs);
 
 }  // namespace copse
