@@ -17,6 +17,7 @@ namespace {
 
 constexpr int k_window = 4;       // neighbours looked at on each side
 constexpr double k_round = 0.25;  // of the leaves: how many at most go in a round
+constexpr double k_asked = 0.25;  // of the leaves: when so many have gone it is asked whether to go on
 constexpr int k_guests = 2;       // of one host in a round
 constexpr float k_other = 0.04f;  // what ground counts that shows another leaf, beside one lost or gained
 constexpr float k_near = 0.005f;  // of what a match covers: what one as far apart as the crown is wide costs
@@ -78,15 +79,18 @@ class Agglomeration {
     while (alive_.size() > 1) round();
   }
 
-  QuickMerges run_until(double triangles) {
+  template <class Good>
+  QuickMerges run_until(double triangles, const Good& good) {
     host_.resize(nodes_.size());
     std::iota(host_.begin(), host_.end(), 0u);
-    while (alive_.size() > 1 && triangles_ > triangles) round();
     QuickMerges out;
-    for (const Leaf& l : alive_)
-      out.leaves.push_back(
-          {l.node, nodes_[l.node].radius, l.group, nodes_[l.node].displacement,
-           nodes_[l.node].drawn == k_none ? elements_.drawn(l.node) : made_[nodes_[l.node].drawn]});
+    std::size_t asked = alive_.size();
+    for (bool goes_on = true; goes_on && alive_.size() > 1 && triangles_ > triangles;) {
+      round();
+      if (double(alive_.size()) > (1 - k_asked) * double(asked)) continue;
+      asked = alive_.size(), goes_on = good(left());
+    }
+    out.leaves = left();
     // A host may have gone to another later: hosts of hosts, until one that is left.
     for (std::uint32_t& h : host_)
       while (host_[h] != h) h = host_[h];
@@ -101,6 +105,14 @@ class Agglomeration {
     std::uint32_t drawn = k_none;  // in made_, once it has grown
     double area = 0;
   };
+
+  std::vector<QuickMerges::Leaf> left() {
+    std::vector<QuickMerges::Leaf> out;
+    for (const Leaf& l : alive_)
+      out.push_back({l.node, nodes_[l.node].radius, l.group, nodes_[l.node].displacement,
+                     nodes_[l.node].drawn == k_none ? elements_.drawn(l.node) : made_[nodes_[l.node].drawn]});
+    return out;
+  }
 
   void gather() {
     std::vector<Leaf> leaves(elements_.size());
@@ -362,8 +374,9 @@ class Agglomeration {
 }  // namespace
 
 QuickMerges merge_quickly(const LeafPieces& pieces, const CrownField& field, const RadiusAncestors& ancestors,
-                          LeafElements& elements, std::size_t triangles) {
-  return Agglomeration(pieces, field, ancestors, elements).run_until(double(triangles));
+                          LeafElements& elements, std::size_t triangles,
+                          const std::function<bool(std::span<const QuickMerges::Leaf>)>& good) {
+  return Agglomeration(pieces, field, ancestors, elements).run_until(double(triangles), good);
 }
 
 Spectrum agglomerate_leaves(const Tree& tree, const Looks& looks, const LeafPieces& pieces,

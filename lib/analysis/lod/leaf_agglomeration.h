@@ -16,6 +16,9 @@
 #include "lib/formats/levels/spectrum.h"
 #include "lib/formats/tree/tree.h"
 
+#include <functional>
+#include <span>
+
 namespace copse {
 
 // What has become of the leaves of a LeafElements.
@@ -30,9 +33,10 @@ struct QuickMerges {
 };
 
 // Merges all nodes of `elements`, of which none has been merged before, until no more than `triangles` are
-// left.
+// left, or until `good`, asked each time a fourth of the leaves has gone, says no to those that are left.
 QuickMerges merge_quickly(const LeafPieces& pieces, const CrownField& field, const RadiusAncestors& ancestors,
-                          LeafElements& elements, std::size_t triangles);
+                          LeafElements& elements, std::size_t triangles,
+                          const std::function<bool(std::span<const QuickMerges::Leaf>)>& good);
 
 // The spectrum of the leaves in `pieces`, which are `tree`'s; what collapse_spectrum says of its elements and
 // steps holds here too (`full`: triangles at full detail, of which `pieces` may be what is left). Areas add

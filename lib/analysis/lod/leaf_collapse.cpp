@@ -29,6 +29,9 @@ constexpr double k_layers = 7;    // of leaves, behind which nothing is seen whi
 constexpr double k_seen = 0.001;  // of its pixels, what a core may change in the picture when it grows
 constexpr double k_many = 0.7, k_many_thin = 0.24;  // of the triangles: no pictures before no more are left
 constexpr std::size_t k_many_leaves = 2000;         // of fewer each matters more
+constexpr double k_too_much = 1.08;                 // coverage at which closed forms end,
+constexpr int k_check_views = 2;                    // seen from so many sides
+constexpr std::uint64_t k_check_turn = 1u << 20;
 constexpr double k_doubt = 8;       // pixels that the field's word counts before any picture is drawn
 constexpr double k_hidden = 0.02;   // of a leaf: if it covers no more alone, it may be anywhere
 constexpr double k_margin = 0.008;  // of the crown's width, out of its hull
@@ -246,11 +249,30 @@ class Collapse {
                            mask_of(nodes_[alive_[i]])});
   }
 
+  // Of leaves that closed forms have made, as pictures see them that are as fine as the first of them.
+  double coverage_of(std::span<const QuickMerges::Leaf> leaves, std::optional<LeafViews>& views) const {
+    std::vector<ViewedLeaf> all;
+    for (const QuickMerges::Leaf& l : leaves)
+      all.push_back({l.drawn.vertices(), l.drawn.triangles(), mask_of(nodes_[l.node])});
+    if (!views) {
+      const double pixel = std::sqrt(area_ / (2 * effort_.leaf_pixels * double(leaves.size())));
+      views.emplace(offset_, 0.55 * length(box_.extent()), std::isfinite(pixel) ? pixel : 0, k_check_turn,
+                    k_check_views, box_);
+      views->set_source(source_);
+    }
+    views->look(all);
+    return views->coverage();
+  }
+
   // As long as there are many, pictures say no more than closed forms: in a crown that hides little, longer.
   void merge_many() {
     const auto many = std::size_t((left_ > 0.5 ? k_many_thin : k_many) * double(full_.triangles.size()));
     if (!effort_.quick || alive_.size() < k_many_leaves || pieces_.triangles.size() <= many) return;
-    QuickMerges merges = merge_quickly(pieces_, field_, ancestors_, elements_, many);
+    std::optional<LeafViews> views;
+    const auto good = [&](std::span<const QuickMerges::Leaf> left) {
+      return coverage_of(left, views) <= k_too_much;
+    };
+    QuickMerges merges = merge_quickly(pieces_, field_, ancestors_, elements_, many, good);
     std::vector<Patch> sums(nodes_.size());
     for (std::uint32_t n = 0; n < nodes_.size(); ++n) sums[merges.host[n]] += nodes_[n].patch;
     alive_.clear();
