@@ -1,6 +1,8 @@
 #include "lib/formats/levels/spectrum_leaves.h"
 
 #include "lib/analysis/lod/leaf_collapse.h"
+#include "lib/analysis/lod/spectrum_builder.h"
+#include "lib/formats/levels/part_triangles.h"
 #include "tests/lod/based_coding.h"
 #include "tests/lod/leafy_tree.h"
 
@@ -75,6 +77,28 @@ TEST(SpectrumLeaves, NothingWithoutItsTree) {
 TEST(SpectrumLeaves, WhatIsNotOfTheTreeIsStoredAlone) {
   const Tree tree = leafy(true, 40), other = leafy(false, 50);
   EXPECT_FALSE(is_based(*encode_spectrum(collapse_spectrum(tree), k_small, &other)));
+}
+
+// On a coarse grid a leaf that has grown a little may be what it was.
+TEST(SpectrumLeaves, AMadeLeafThatIsOneOfTheTreesAgainIsStillBasedOnIt) {
+  const Tree tree = leafy(false, 40);
+  const PartTriangles part = leaf_triangles(tree);
+  SpectrumBuilder b(LodMethod::collapse);
+  for (const SpectrumVertex& v : part.vertices) b.vertex(v);
+  std::vector<std::uint32_t> elements;
+  const auto add = [&](std::size_t t) {
+    return b.element(part.materials[t], k_none, std::span(&part.triangles[t], 1));
+  };
+  for (std::size_t t = 0; t < part.triangles.size(); ++t) elements.push_back(add(t));
+  b.step(0.1);
+  b.remove(elements[3]);
+  const std::uint32_t again = add(3);
+  b.remove(elements[4]);
+  b.step(0.2);
+  b.remove(again);
+  const Spectrum s = b.finish();
+  EXPECT_TRUE(is_based(*encode_spectrum(s, k_small, &tree)));
+  expect_round_trip(s, tree);
 }
 
 TEST(SpectrumLeaves, TenThousandMutantsAreRefusedOrHarmless) {

@@ -83,16 +83,21 @@ class Reader {
       is_source_[e] = 1;
     }
     if (std::find(out_.piece_of.begin(), out_.piece_of.end(), k_none) != out_.piece_of.end()) return false;
+    // Not all of them: where the last one comes again as it was, it has been made.
     std::vector<std::uint8_t> single(part_.triangles.size(), 0);
+    std::vector<std::uint32_t> left(out_.radii.size(), 0);
+    for (const std::uint32_t piece : out_.piece_of) ++left[piece];
     for (std::uint32_t e = 0; e < s_.elements.size(); ++e) {
       const SpectrumElement& x = s_.elements[e];
       if (x.birth == 0 || s_.first_triangle[e + 1] - s_.first_triangle[e] != 1) continue;
       const std::vector<std::uint32_t>* same = same_as(s_.first_triangle[e]);
       if (same == nullptr) continue;
       for (const std::uint32_t t : *same) {
-        if (single[t] || piece_death_[out_.piece_of[t]] != x.birth ||
-            out_.radii[out_.piece_of[t]] != x.radius)
+        const std::uint32_t piece = out_.piece_of[t];
+        if (single[t] || left[piece] == 1 || piece_death_[piece] != x.birth ||
+            out_.radii[piece] != x.radius || part_.materials[t] != x.material)
           continue;
+        --left[piece];
         single[t] = 1, death_[t] = x.death, is_source_[e] = 1;
         break;
       }
