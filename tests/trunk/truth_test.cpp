@@ -89,6 +89,23 @@ INSTANTIATE_TEST_SUITE_P(Truth, RealTrees,
                            return file.substr(0, file.find('.'));
                          });
 
+// A trunk of six sides with five root fins; on two of its faces an inset, from which a stub is pulled out.
+TEST(RealTrunk, WithStubsOnInsetFacesAndAFlaredFootIsReadAsItWasModelled) {
+  const auto import = import_mesh(k_trees / "kenney_tree_oak_fall.obj");
+  if (!import) GTEST_SKIP() << k_trees << " is not there: the meshes are no part of the repository";
+  const Hierarchy h = recover_hierarchy(make_trunk_mesh(import->mesh, trunk_of(import->mesh)));
+  ASSERT_EQ(h.radii.size(), 7u);
+  const auto at_height = [&](double y) {
+    return std::ranges::find_if(h.radii,
+                                [&](const RadiusNode& r) { return std::abs(r.centre.y - y) < 1e-9; });
+  };
+  const auto knee = at_height(0.11), top = at_height(0.4504);
+  ASSERT_TRUE(knee != h.radii.end() && top != h.radii.end());
+  EXPECT_NEAR(knee->diameter, 0.1386, 1e-4);
+  EXPECT_EQ(&h.radii[top->parent], &*knee);
+  EXPECT_EQ(h.radii[knee->parent].parent, k_none);
+}
+
 TrueHierarchy hierarchy_of(const grow::Truth& truth) {
   TrueHierarchy h;
   h.height = truth.height;

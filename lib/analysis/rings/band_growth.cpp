@@ -1,5 +1,7 @@
 #include "lib/analysis/rings/band_growth.h"
 
+#include "lib/analysis/rings/hole_filling.h"
+#include "lib/analysis/surface/components.h"
 #include "lib/analysis/surface/tolerances.h"
 #include "lib/analysis/surface/welded_tolerances.h"
 
@@ -373,35 +375,6 @@ void BandGrowth::start_at_bands(std::uint32_t first) {
   committed_at_ = walks_;
 }
 
-// A polygon's corner with the side that follows it, and the band across that side; k_none where there is
-// none.
-struct Corner {
-  std::uint32_t vertex = 0, band = k_none;
-};
-
-// Cuts the corner with the shortest diagonal until a triangle is left. Where the corner's two sides lie on
-// one band they are part of its ring, and a triangle there would close what the next band must run through.
-static std::vector<Triangle> fill_polygon(std::span<const Double3> positions, std::vector<Corner> ring) {
-  std::vector<Triangle> triangles;
-  while (ring.size() >= 3) {
-    const std::size_t n = ring.size();
-    std::size_t best = 0;
-    std::pair<bool, double> least{true, std::numeric_limits<double>::infinity()};
-    for (std::size_t i = 0; i < n && n > 3; ++i) {
-      const Corner &last = ring[(i + n - 1) % n], &next = ring[(i + 1) % n];
-      const bool on_ring = last.band != k_none && last.band == ring[i].band;
-      const std::pair cost(on_ring, distance(positions[last.vertex], positions[next.vertex]));
-      if (cost < least) least = cost, best = i;
-    }
-    const std::size_t last = (best + n - 1) % n;
-    triangles.push_back({ring[last].vertex, ring[best].vertex, ring[(best + 1) % n].vertex});
-    ring[last].band = k_none;
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(best));
-    if (n == 3) break;
-  }
-  return triangles;
-}
-
 std::vector<BandGrowth::Side> BandGrowth::sides_of(std::uint32_t ring) const {
   const auto polygon = bands_.ring(ring);
   const auto triangles = bands_.triangles_of(ring / 2);
@@ -460,9 +433,9 @@ void BandGrowth::take_back(std::span<const Side> sides) {
 
 void BandGrowth::fill(std::uint32_t ring) {
   const std::vector<Side> sides = sides_of(ring);
-  std::vector<Corner> corners;
+  std::vector<HoleCorner> corners;
   for (const std::uint32_t v : bands_.ring(ring)) corners.push_back({v, k_none});
-  for (Corner& corner : corners) {
+  for (HoleCorner& corner : corners) {
     for (const Side& s : sides) {
       if (s.a == corner.vertex && s.outside < bands_.band_of.size()) corner.band = bands_.band_of[s.outside];
     }
@@ -501,39 +474,6 @@ std::vector<std::uint32_t> BandGrowth::limbs_beyond(std::span<const Side> sides)
   return is_open ? limbs : std::vector<std::uint32_t>{};
 }
 
-// A strip of triangles between the sides of a polygon that are on_ring, which must follow one another, and
-// all its other corners; none where there is no such strip.
-static std::vector<Triangle> strip_across(std::span<const Double3> positions,
-                                          std::span<const std::uint32_t> polygon,
-                                          std::span<const std::uint8_t> on_ring) {
-  const std::size_t n = polygon.size();
-  std::size_t begin = n, runs = 0, sides = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    sides += on_ring[i];
-    if (on_ring[i] && !on_ring[(i + n - 1) % n]) begin = i, ++runs;
-  }
-  if (runs != 1 || sides + 2 > n) return {};
-  // From the side before the run both chains go the same way.
-  std::vector<Triangle> triangles;
-  std::size_t near = 0, far = 0;
-  const std::size_t far_sides = n - sides - 2;
-  const auto near_at = [&](std::size_t i) { return polygon[(begin + i) % n]; };
-  const auto far_at = [&](std::size_t i) { return polygon[(begin + 2 * n - 1 - i) % n]; };
-  while (near < sides || far < far_sides) {
-    const std::uint32_t a = near_at(near), b = far_at(far);
-    const double along_near = near < sides ? distance(positions[near_at(near + 1)], positions[b])
-                                           : std::numeric_limits<double>::infinity();
-    const double along_far = far < far_sides ? distance(positions[a], positions[far_at(far + 1)])
-                                             : std::numeric_limits<double>::infinity();
-    if (along_near <= along_far) {
-      triangles.push_back({a, near_at(++near), b});
-    } else {
-      triangles.push_back({a, far_at(++far), b});
-    }
-  }
-  return triangles;
-}
-
 // Closes the hole of the limb that ends in `ring`, which the band `band` borders on one arc.
 bool BandGrowth::close_strip(std::uint32_t ring, std::uint32_t band) {
   const std::vector<Side> sides = sides_of(ring);
@@ -549,27 +489,74 @@ bool BandGrowth::close_strip(std::uint32_t ring, std::uint32_t band) {
 }
 
 // The same where the limb was cut into a band that begins at a border: the border runs along the limb's ring.
-bool BandGrowth::read_past_limb_at_border(std::uint32_t ring, std::span<const Side> sides) {
+bool BandGrowth::close_strip_at_border(std::span<const Side> sides, std::uint32_t ring) {
   std::vector<std::uint8_t> at_border;
   bool is_open = false;
   for (const Side& s : sides) {
     at_border.push_back(s.outside == k_none);
     is_open |= unread(s.outside);
   }
-  const auto border = std::ranges::find(sides, k_none, &Side::outside);
-  if (!is_open || border == sides.end() || sides.size() != bands_.ring(ring).size()) return false;
+  if (!is_open || sides.size() != bands_.ring(ring).size()) return false;
   const std::vector<Triangle> strip = strip_across(surface_.positions, bands_.ring(ring), at_border);
   if (strip.empty()) return false;
-  auto start = static_cast<std::uint32_t>(triangles_.size());
   stand_in(sides, strip);
-  while (!holds(triangles_[start], border->a, border->b)) ++start;
-  if (walk({start, border->a, border->b, limit_after(sides.size())}) && is_strip() &&
-      step_.next.size() == step_.ring.size() && is_expected()) {
-    commit();
-    return true;
+  return true;
+}
+
+// Reads the band from a border that a stand-in lies at, if it keeps the number of vertices.
+bool BandGrowth::read_from_border(const Side& border, std::uint32_t first_stand_in, std::size_t k) {
+  while (!holds(triangles_[first_stand_in], border.a, border.b)) ++first_stand_in;
+  if (!walk({first_stand_in, border.a, border.b, limit_after(k)}) || !is_strip() ||
+      step_.next.size() != step_.ring.size() || !is_expected()) {
+    return false;
   }
+  commit();
+  return true;
+}
+
+bool BandGrowth::read_past_limb_at_border(std::uint32_t ring, std::span<const Side> sides) {
+  const auto first = static_cast<std::uint32_t>(triangles_.size());
+  const auto border = std::ranges::find(sides, k_none, &Side::outside);
+  if (border == sides.end() || !close_strip_at_border(sides, ring)) return false;
+  if (read_from_border(*border, first, sides.size())) return true;
   take_back(sides);
   return false;
+}
+
+// Bands that begin at a border and that several limbs were cut into.
+void BandGrowth::read_past_limbs_at_borders() {
+  UnionFind borders(surface_.positions.size());
+  for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+    for (std::size_t e = 0; e < 3; ++e) {
+      if (surface_.across[t][e] == k_none)
+        borders.unite(surface_.triangles[t][e], surface_.triangles[t][(e + 1) % 3]);
+    }
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> rings;  // border, ring
+  for (std::uint32_t ring = 0; ring < 2 * bands_.count(); ++ring) {
+    const std::size_t k = bands_.ring(ring).size();
+    if (k < 3 || k > k_widest_collar || !borders_unread(ring / 2)) continue;
+    const std::vector<Side> sides = sides_of(ring);
+    const auto at = std::ranges::find(sides, k_none, &Side::outside);
+    if (at != sides.end()) rings.emplace_back(borders.find(at->a), ring);
+  }
+  std::ranges::sort(rings);
+  for (auto i = rings.begin(); i != rings.end();) {
+    const auto end = std::find_if(i, rings.end(), [&](const auto& r) { return r.first != i->first; });
+    const auto first = static_cast<std::uint32_t>(triangles_.size());
+    std::vector<std::vector<Side>> closed;
+    std::size_t k = 0;
+    for (; i != end; ++i) {
+      std::vector<Side> sides = sides_of(i->second);
+      if (!close_strip_at_border(sides, i->second)) continue;
+      k += sides.size();
+      closed.push_back(std::move(sides));
+    }
+    if (closed.empty()) continue;
+    const Side border = *std::ranges::find(closed.front(), k_none, &Side::outside);
+    if (closed.size() > 1 && read_from_border(border, first, k)) continue;
+    for (; !closed.empty(); closed.pop_back()) take_back(closed.back());
+  }
 }
 
 bool BandGrowth::read_past_limbs(std::uint32_t ring, std::size_t most) {
@@ -611,6 +598,8 @@ void BandGrowth::read_past_limbs() {
   // One limb first: a limb of four sides can pass for what two other ends sit on.
   read_past_limbs_of(1);
   read_past_limbs_of(k_widest_collar);
+  read_past_limbs_at_borders();
+  read_regular();
 }
 
 void BandGrowth::read_past_limbs_of(std::size_t most) {

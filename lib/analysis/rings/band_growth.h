@@ -116,7 +116,10 @@ class BandGrowth {
   bool borders_unread(std::uint32_t band) const;
   std::vector<std::uint32_t> limbs_beyond(std::span<const Side> sides) const;
   bool close_strip(std::uint32_t ring, std::uint32_t band);
+  bool close_strip_at_border(std::span<const Side> sides, std::uint32_t ring);
+  bool read_from_border(const Side& border, std::uint32_t first_stand_in, std::size_t k);
   bool read_past_limb_at_border(std::uint32_t ring, std::span<const Side> sides);
+  void read_past_limbs_at_borders();
   bool read_past_limbs(std::uint32_t ring, std::size_t most);
   void read_past_limbs_of(std::size_t most);
 

@@ -43,7 +43,9 @@ class RingWalk {
       waiting_.pop_front();
       if (!entered_[g_.site_of[node]]) enter(g_.site_of[node], node);
     }
+    place_far_ends();
     explain_caps();
+    explain_insets();
     for (std::uint32_t site = 0; site < g_.sites; ++site) explain_site(site);
     return std::move(out_);
   }
@@ -179,6 +181,7 @@ class RingWalk {
           todo.push_back(on);
         }
         if (on != m) seat(m, radius_of_[on], branch_of_[on]);
+        if (on != m || holder_[n] != k_none) beside_holes_.push_back(b);
       }
     }
   }
@@ -317,24 +320,83 @@ class RingWalk {
     }
   }
 
+  // A limb whose last ring runs out into something that is no tube, a flared foot or a knob, goes on to where
+  // that ends.
+  void place_far_ends() {
+    for (std::uint32_t site = 0; site < g_.sites; ++site) {
+      if (g_.ends[site].size() != 1) continue;
+      const std::uint32_t end = g_.ends[site][0];
+      if (is_point(end) || radius_of_[end] == k_none) continue;
+      const Double3 out = -direction(end), from = g_.circle[end].centre;
+      const std::size_t before = out_.ring_vertices.size();
+      double farthest = 0;
+      for (const std::uint32_t t : g_.patch[site]) {
+        for (const std::uint32_t v : s_.triangles[t]) {
+          if (g_.nodes_of[v].empty()) farthest = std::max(farthest, dot(s_.positions[v] - from, out));
+        }
+      }
+      if (farthest <= k_far_end * g_.circle[end].radius) continue;
+      for (const std::uint32_t t : g_.patch[site]) {
+        for (const std::uint32_t v : s_.triangles[t]) {
+          if (g_.nodes_of[v].empty() && dot(s_.positions[v] - from, out) >= farthest / 2) own(v);
+        }
+      }
+      double wide = 0;
+      for (std::size_t i = before; i < out_.ring_vertices.size(); ++i) {
+        const Double3 off = s_.positions[out_.ring_vertices[i]] - from;
+        wide += length(off - out * dot(off, out));
+      }
+      wide /= static_cast<double>(out_.ring_vertices.size() - before);
+      joint_of_[site] =
+          add_radius({from + out * farthest, wide}, radius_of_[end], RadiusSource::surface, branch_of_[end]);
+    }
+  }
+
+  // The triangle goes with the segment whose axis is nearest, in its own radii.
+  void explain_by_nearest(std::uint32_t triangle, std::span<const std::uint32_t> segments) {
+    const Triangle& c = s_.triangles[triangle];
+    const Double3 p = (s_.positions[c[0]] + s_.positions[c[1]] + s_.positions[c[2]]) / 3.0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t r : segments) {
+      const RadiusNode &child = out_.radii[r], &parent = out_.radii[child.parent];
+      const double at = nearest_on_segment(parent.centre, child.centre, p);
+      const double d = distance(parent.centre + (child.centre - parent.centre) * at, p);
+      const double radius = parent.diameter + (child.diameter - parent.diameter) * at;
+      const double apart = d / std::max(radius, std::numeric_limits<double>::min());
+      if (apart < least) least = apart, out_.segment_of[triangle] = r;
+    }
+  }
+
+  // What lies between the hole in a limb's side and a ring within that side, before a limb is pulled out of
+  // it, is the side's.
+  void explain_insets() {
+    for (const std::uint32_t band : beside_holes_) {
+      const std::uint32_t a = g_.node_of[2 * band], b = g_.node_of[2 * band + 1];
+      const std::uint32_t hole = holder_[a] != k_none ? a : b, inset = hole == a ? b : a;
+      const std::uint32_t radius = radius_of_[hole];
+      if (radius == k_none) continue;
+      for (const std::uint32_t side : g_.bands_of[holder_[hole]]) {
+        const std::uint32_t other = g_.across(holder_[hole], side);
+        if (radius_of_[other] == k_none || radius_of_[other] == radius) continue;
+        const std::uint32_t segment =
+            out_.radii[radius].parent == radius_of_[other] ? radius : radius_of_[other];
+        if (out_.radii[segment].parent != (segment == radius ? radius_of_[other] : radius)) continue;
+        const RadiusNode &top = out_.radii[segment], &base = out_.radii[top.parent];
+        const Double3& p = g_.circle[inset].centre;
+        const double at = nearest_on_segment(base.centre, top.centre, p);
+        const double within = (base.diameter + (top.diameter - base.diameter) * at) / 2;
+        if (at > 0 && at < 1 && distance(p, base.centre + (top.centre - base.centre) * at) <= within)
+          explain(band, segment);
+      }
+    }
+  }
+
   void explain_site(std::uint32_t site) {
     std::vector<std::uint32_t> segments;
     if (joint_of_[site] != k_none) segments.push_back(joint_of_[site]);
     for (const std::uint32_t n : g_.ends[site]) segments_at(n, segments);
     std::ranges::sort(segments);
-    for (const std::uint32_t t : g_.patch[site]) {
-      const Triangle& c = s_.triangles[t];
-      const Double3 p = (s_.positions[c[0]] + s_.positions[c[1]] + s_.positions[c[2]]) / 3.0;
-      double least = std::numeric_limits<double>::infinity();
-      for (const std::uint32_t r : segments) {
-        const RadiusNode &child = out_.radii[r], &parent = out_.radii[child.parent];
-        const double at = nearest_on_segment(parent.centre, child.centre, p);
-        const double d = distance(parent.centre + (child.centre - parent.centre) * at, p);
-        const double radius = parent.diameter + (child.diameter - parent.diameter) * at;
-        const double apart = d / std::max(radius, std::numeric_limits<double>::min());
-        if (apart < least) least = apart, out_.segment_of[t] = r;
-      }
-    }
+    for (const std::uint32_t t : g_.patch[site]) explain_by_nearest(t, segments);
   }
 
   const Surface& s_;
@@ -348,6 +410,7 @@ class RingWalk {
   std::vector<std::uint8_t> is_lid_;                  // one a triangle
   std::vector<std::uint32_t> joint_of_;               // one a site: the radius between its limbs
   std::vector<std::uint8_t> entered_;                 // one a site
+  std::vector<std::uint32_t> beside_holes_;           // bands
   std::deque<std::uint32_t> waiting_;                 // placed nodes whose sites are still to be entered
   std::uint32_t branches_ = 0;
 };

@@ -13,6 +13,8 @@ namespace copse {
 //   lies on;
 // - where three or more limbs meet round vertices that no ring holds, these get a radius between them
 //   (RadiusSource::surface), where the limbs' axes meet;
+// - where the last ring of a limb runs out into what is no tube, a radius lies where that ends
+//   (RadiusSource::surface);
 // - the thickest and straightest limb carries on the branch.
 // Diameters are 2/k sum |v - c| over the whole ring, also where some of its vertices belong to another
 // radius. A vertex that closes the end of a limb is no radius; one that a limb tapers to is

@@ -34,6 +34,8 @@ inline constexpr double k_enough_bands = 0.9;
 // Share of the ring's radius: a vertex nearer than this to its ring's centre closes a limb, farther out it is
 // a limb's pointed end.
 inline constexpr double k_cap_height = 0.25;
+// Radii that what a limb's last ring runs out into reaches beyond it to be a part of the limb, and no lid.
+inline constexpr double k_far_end = 0.5;
 // How much being low counts against being thick when the root is looked for: an end at the bottom must not be
 // thinner than one at the top by more than this share of it. Pieces of drooping limbs have their thin ends
 // below.
