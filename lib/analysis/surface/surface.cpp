@@ -7,12 +7,13 @@ namespace copse {
 
 namespace {
 
-// A triangle's edge, seen from the lower of its two vertices.
+// A triangle's edge, seen from the lower of its two vertices; small, as there are three a triangle.
 struct EdgeUse {
   std::uint32_t high;  // the other vertex
-  std::uint32_t triangle;
-  std::uint8_t edge;
-  bool rising;  // runs from the lower to the higher vertex
+  std::uint32_t half;  // three times the triangle and the edge of it
+  std::uint32_t triangle() const { return half / 3; }
+  std::uint32_t edge() const { return half % 3; }
+  auto operator<=>(const EdgeUse&) const = default;
 };
 
 // Items 0 .. count - 1 sorted into buckets: begin[b] .. begin[b + 1] of `items`.
@@ -69,9 +70,7 @@ class EdgePairing {
     bucket_edges();
     for (std::size_t v = 0; v + 1 < begin_.size(); ++v) {
       const auto from = uses_.begin() + begin_[v], to = uses_.begin() + begin_[v + 1];
-      std::sort(from, to, [](const EdgeUse& a, const EdgeUse& b) {
-        return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
-      });
+      std::sort(from, to);
       for (auto i = from; i != to;) {
         auto j = i;
         while (j != to && j->high == i->high) ++j;
@@ -85,9 +84,9 @@ class EdgePairing {
   void bucket_edges() {
     const auto each = [&](const auto& visit) {
       for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
-        for (std::uint8_t e = 0; e < 3; ++e) {
+        for (std::uint32_t e = 0; e < 3; ++e) {
           const std::uint32_t a = surface_.triangles[t][e], b = surface_.triangles[t][(e + 1) % 3];
-          visit(std::min(a, b), EdgeUse{std::max(a, b), t, e, a < b});
+          visit(std::min(a, b), EdgeUse{std::max(a, b), 3 * t + e});
         }
       }
     };
@@ -100,8 +99,13 @@ class EdgePairing {
   }
 
   void join(const EdgeUse& a, const EdgeUse& b) {
-    surface_.across[a.triangle][a.edge] = b.triangle;
-    surface_.across[b.triangle][b.edge] = a.triangle;
+    surface_.across[a.triangle()][a.edge()] = b.triangle();
+    surface_.across[b.triangle()][b.edge()] = a.triangle();
+  }
+
+  // Whether it runs from the lower to the higher vertex.
+  bool is_rising(const EdgeUse& use) const {
+    return surface_.triangles[use.triangle()][(use.edge() + 1) % 3] == use.high;
   }
 
   void pair_edge(std::uint32_t low, std::span<EdgeUse> uses) {
@@ -115,10 +119,10 @@ class EdgePairing {
 
   bool pair_by_piece(std::span<EdgeUse> uses) {
     std::ranges::sort(uses, [&](const EdgeUse& a, const EdgeUse& b) {
-      const std::uint32_t pa = piece_[a.triangle], pb = piece_[b.triangle];
-      return pa != pb ? pa < pb : a.triangle < b.triangle;
+      const std::uint32_t pa = piece_[a.triangle()], pb = piece_[b.triangle()];
+      return pa != pb ? pa < pb : a.half < b.half;
     });
-    const auto piece = [&](std::size_t i) { return piece_[uses[i].triangle]; };
+    const auto piece = [&](std::size_t i) { return piece_[uses[i].triangle()]; };
     bool paired = false;
     for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
       while (j < uses.size() && piece(j) == piece(i)) ++j;
@@ -137,17 +141,17 @@ class EdgePairing {
     const Double3 u = normalized(cross(axis, any)), v = cross(axis, u);
     std::vector<std::pair<double, std::size_t>> turn;
     for (std::size_t i = 0; i < uses.size(); ++i) {
-      const std::uint32_t apex = third_corner(surface_.triangles[uses[i].triangle], low, uses[i].high);
+      const std::uint32_t apex = third_corner(surface_.triangles[uses[i].triangle()], low, uses[i].high);
       const Double3 d = surface_.positions[apex] - origin;
       turn.emplace_back(std::atan2(dot(d, v), dot(d, u)), i);
     }
     std::ranges::sort(turn);
     for (std::size_t i = 0; i < turn.size(); ++i) {
-      if (uses[turn[i].second].rising == uses[turn[(i + 1) % turn.size()].second].rising) return;
+      if (is_rising(uses[turn[i].second]) == is_rising(uses[turn[(i + 1) % turn.size()].second])) return;
     }
     // With u, v, axis right-handed, a triangle that runs up the edge faces the side of growing angle, so
     // matter lies before it.
-    const std::size_t first = uses[turn[0].second].rising ? turn.size() - 1 : 0;
+    const std::size_t first = is_rising(uses[turn[0].second]) ? turn.size() - 1 : 0;
     for (std::size_t i = 0; i < turn.size(); i += 2) {
       join(uses[turn[(first + i) % turn.size()].second], uses[turn[(first + i + 1) % turn.size()].second]);
     }
@@ -159,65 +163,69 @@ class EdgePairing {
   std::vector<EdgeUse> uses_;
 };
 
-// The compact number of every corner; `used` receives the vertices in ascending order.
-std::vector<std::uint32_t> number_vertices(const TrunkMesh& whole, std::span<const std::uint32_t> triangles,
-                                           std::vector<std::uint32_t>& used) {
-  std::vector<std::uint32_t> corners;
-  corners.reserve(3 * triangles.size());
-  for (std::uint32_t t : triangles) {
-    corners.insert(corners.end(), whole.triangles[t].begin(), whole.triangles[t].end());
+// The triangles with compact numbers of vertices; `used` receives the vertices in ascending order.
+std::vector<Triangle> number_vertices(const TrunkMesh& whole, std::span<const std::uint32_t> triangles,
+                                      std::vector<std::uint32_t>& used) {
+  std::vector<Triangle> local;
+  local.reserve(triangles.size());
+  std::uint32_t low = k_none, high = 0;
+  for (const std::uint32_t t : triangles) {
+    local.push_back(whole.triangles[t]);
+    for (const std::uint32_t v : local.back()) low = std::min(low, v), high = std::max(high, v);
   }
-  if (corners.empty()) return corners;
-  const auto [low, high] = std::ranges::minmax(corners);
-  if (high - low < 8 * corners.size()) {  // nearly always: a table costs less than sorting
+  if (local.empty()) return local;
+  if (high - low < 24 * local.size()) {  // nearly always: a table costs less than sorting
     std::vector<std::uint32_t> number(high - low + 1, 0);
-    for (std::uint32_t v : corners) number[v - low] = 1;
-    for (std::uint32_t v = low; v <= high && v >= low; ++v) {
-      if (number[v - low] == 0) continue;
-      number[v - low] = static_cast<std::uint32_t>(used.size());
-      used.push_back(v);
+    for (const Triangle& t : local) {
+      for (const std::uint32_t v : t) number[v - low] = 1;
     }
-    for (std::uint32_t& v : corners) v = number[v - low];
+    for (std::uint32_t i = 0; i < number.size(); ++i) {
+      if (number[i] == 0) continue;
+      number[i] = static_cast<std::uint32_t>(used.size());
+      used.push_back(low + i);
+    }
+    for (Triangle& t : local) {
+      for (std::uint32_t& v : t) v = number[v - low];
+    }
   } else {
-    used = corners;
+    for (const Triangle& t : local) used.insert(used.end(), t.begin(), t.end());
     std::ranges::sort(used);
     const auto repeated = std::ranges::unique(used);
     used.erase(repeated.begin(), repeated.end());
-    for (std::uint32_t& v : corners) {
-      v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
+    for (Triangle& t : local) {
+      for (std::uint32_t& v : t) {
+        v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
+      }
     }
   }
-  return corners;
+  return local;
 }
 
 }  // namespace
 
 Surface make_surface(const TrunkMesh& whole, std::span<const std::uint32_t> triangles) {
   Surface s;
-  const std::vector<std::uint32_t> local = number_vertices(whole, triangles, s.vertex);
+  s.triangles = number_vertices(whole, triangles, s.vertex);
   s.positions.reserve(s.vertex.size());
   for (std::uint32_t v : s.vertex) s.positions.push_back(whole.positions[v]);
 
-  std::vector<Triangle> all;
-  all.reserve(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    all.push_back({local[3 * i], local[3 * i + 1], local[3 * i + 2]});
-  }
-  const std::vector<std::uint32_t> first = first_of_same(all, s.positions.size());
+  s.triangle_of = first_of_same(s.triangles, s.positions.size());
   std::vector<std::uint32_t> piece;
-  s.triangle_of.resize(all.size());
-  for (std::uint32_t i = 0; i < all.size(); ++i) {
-    if (first[i] == i) {
-      s.triangle_of[i] = static_cast<std::uint32_t>(s.triangles.size());
-      s.triangles.push_back(all[i]);
-      s.order.push_back(!whole.file_order.empty() ? whole.file_order[triangles[i]]
-                        : whole.source.empty()    ? i
-                                                  : whole.source[triangles[i]]);
-      piece.push_back(whole.piece.empty() ? 0 : whole.piece[triangles[i]]);
-    } else {
-      s.triangle_of[i] = s.triangle_of[first[i]];
+  piece.reserve(triangles.size()), s.order.reserve(triangles.size());
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    if (const std::uint32_t first = s.triangle_of[i]; first != i) {
+      s.triangle_of[i] = s.triangle_of[first];
+      continue;
     }
+    s.triangle_of[i] = kept;
+    s.triangles[kept++] = s.triangles[i];
+    s.order.push_back(!whole.file_order.empty() ? whole.file_order[triangles[i]]
+                      : whole.source.empty()    ? i
+                                                : whole.source[triangles[i]]);
+    piece.push_back(whole.piece.empty() ? 0 : whole.piece[triangles[i]]);
   }
+  s.triangles.resize(kept);
   EdgePairing(s, std::move(piece)).pair_all();
   return s;
 }

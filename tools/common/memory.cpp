@@ -1,0 +1,11 @@
+#include "tools/common/memory.h"
+
+#include <malloc.h>
+
+namespace copse {
+
+void return_large_arrays() {
+  mallopt(M_MMAP_THRESHOLD, 12 << 20);
+}
+
+}  // namespace copse
