@@ -68,14 +68,7 @@ TEST(StrictHierarchy, TheRootIsBelowTheGroundHoweverThinItIs) {
 }
 
 TEST(StrictHierarchy, FollowsAVineOfAHundredThousandSegments) {
-  StrictModelMesh m;
-  std::uint32_t last = m.ring({0, -1, 0}, 1, 3);
-  for (int i = 0; i < 100000; ++i) {
-    const auto next = m.ring({0, double(i), 0}, 1, 3);
-    m.band(last, next, 3);
-    last = next;
-  }
-  const StrictTrunk s = read(m);
+  const StrictTrunk s = read(vine_model(100'000));
   EXPECT_EQ(s.hierarchy.radii.size(), 100001u);
   EXPECT_EQ(s.hierarchy.radii.back().branch, 0u);
 }

@@ -119,14 +119,7 @@ TEST(StrictModel, OfAnEmptyMeshHasNoBreach) {
 }
 
 TEST(StrictModel, FollowsAVineOfAHundredThousandSegments) {
-  Model m;
-  std::uint32_t last = m.ring({0, -1, 0}, 1, 3);
-  for (int i = 0; i < 100000; ++i) {
-    const auto next = m.ring({0, double(i), 0}, 1, 3);
-    m.band(last, next, 3);
-    last = next;
-  }
-  const StrictModel s = m.read();
+  const StrictModel s = vine_model(100'000).read();
   EXPECT_EQ(s.parent.size(), 100001u);
   EXPECT_TRUE(s.breaches.empty());
 }

@@ -53,6 +53,18 @@ struct StrictModelMesh {
   StrictModel read() const { return read_strict_model(mesh, welded(), leaf_of); }
 };
 
+// A trunk alone, so long that what recurses along it overflows: segments, one above the other.
+inline StrictModelMesh vine_model(int segments) {
+  StrictModelMesh m;
+  std::uint32_t last = m.ring({0, -1, 0}, 1, 3);
+  for (int i = 0; i < segments; ++i) {
+    const auto next = m.ring({0, double(i), 0}, 1, 3);
+    m.band(last, next, 3);
+    last = next;
+  }
+  return m;
+}
+
 inline StrictModelMesh sound_model(int k = 5) {
   StrictModelMesh m;
   const auto n = static_cast<std::uint32_t>(k);
