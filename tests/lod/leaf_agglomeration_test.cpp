@@ -1,5 +1,6 @@
 #include "lib/analysis/lod/leaf_agglomeration.h"
 
+#include "lib/analysis/lod/crown_field.h"
 #include "lib/analysis/measure/lod_quality.h"
 #include "tests/lod/leafy_tree.h"
 
@@ -111,6 +112,42 @@ TEST(LeafAgglomeration, GivesTheSameTwice) {
   const Spectrum a = agglomerated(tree), b = agglomerated(tree);
   EXPECT_TRUE(std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end()));
   EXPECT_TRUE(std::equal(a.elements.begin(), a.elements.end(), b.elements.begin(), b.elements.end()));
+}
+
+TEST(LeafAgglomeration, ClosedFormsEndWhenTheyAreToldTo) {
+  const Tree tree = LeafyTree{.leaves = 600, .half = 0.05}.make();
+  const LeafPieces pieces = leaf_pieces(tree);
+  std::vector<FoliageTriangle> triangles(pieces.part.triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c)
+      triangles[t].corners[c] = to_double(pieces.part.vertices[pieces.part.triangles[t][c]].position);
+  const CrownField field(triangles, 16);
+  const RadiusAncestors ancestors(tree);
+  const auto left = [&](const std::vector<bool>& answers) {
+    LeafElements elements(pieces);
+    std::vector<std::size_t> asked;
+    const auto good = [&](std::span<const QuickMerges::Leaf> leaves) {
+      asked.push_back(leaves.size());
+      return asked.size() > answers.size() || answers[asked.size() - 1];
+    };
+    const QuickMerges merges = merge_quickly(pieces, field, ancestors, elements, 100, good);
+    std::size_t before = elements.size();
+    for (const std::size_t n : asked) {
+      EXPECT_LE(double(n), 0.75 * double(before)) << "asked each time a fourth has gone";
+      before = n;
+    }
+    for (const std::uint32_t host : merges.host)
+      EXPECT_TRUE(std::ranges::any_of(merges.leaves, [&](const auto& l) { return l.node == host; }));
+    if (asked.size() == answers.size() && !answers.empty()) {
+      EXPECT_EQ(merges.leaves.size(), asked.back());
+    }
+    return merges.leaves.size();
+  };
+  EXPECT_LE(left({}), 100u);
+  const std::size_t at_once = left({false}), later = left({true, false});
+  EXPECT_GT(at_once, 600u);
+  EXPECT_GT(at_once, later);
+  EXPECT_GT(later, 100u);
 }
 
 }  // namespace
