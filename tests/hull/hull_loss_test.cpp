@@ -2,6 +2,9 @@
 
 #include "tests/volumes/point_sets.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 namespace copse {
@@ -42,6 +45,31 @@ TEST(HullLoss, OfAKernelIsReportedByTheHullAndCoversEveryPoint) {
     for (std::size_t i = 0; i < cloud.points.size(); i += 37)
       worst = std::max(worst, dot(n, cloud.points[i] - a));
     EXPECT_LE(worst, hull.loss);
+  }
+}
+
+// Two facets of as many triangles as there are sides: a walk may not end amid them.
+TEST(HullLoss, OfADrumIsSeenFromBothItsEnds) {
+  constexpr int k_sides = 12000;
+  std::vector<Double3> drum;
+  for (int i = 0; i < k_sides; ++i) {
+    const double turn = 2 * std::numbers::pi * i / k_sides;
+    for (const double z : {0.0, 1.0}) drum.push_back({std::cos(turn), std::sin(turn), z});
+  }
+  const PointCloud cloud = make_point_cloud(drum).value();
+  const ConvexHull hull = convex_hull(cloud, {.max_candidates = 1000});
+  const double corners = double(hull.vertices.size()) / 2, unit = 1 / hull.frame.scale;
+  EXPECT_GE(hull.loss, 0.99 * unit * (1 - std::cos(std::numbers::pi / corners)));
+  // The boundary reaches as far as all points do, in every direction.
+  for (int i = 0; i < 500; ++i) {
+    const double turn = 0.1 + 2.3 * i;
+    const Double3 n{std::cos(turn), std::sin(turn), i % 2 == 0 ? 0.3 : -0.3};
+    const auto reach = [&](const std::vector<Double3>& points) {
+      double most = -1e300;
+      for (const Double3& p : points) most = std::max(most, dot(n, p));
+      return most;
+    };
+    EXPECT_NEAR(reach(hull.boundary), reach(cloud.points), 1e-9 * unit) << i;
   }
 }
 
