@@ -14,6 +14,9 @@ constexpr float k_tiny = std::numeric_limits<float>::min();
 float sum_of(const Float3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
+float largest_of(const Float3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
 float length_of(const Float3& v) {
   return std::sqrt(dot(v, v));
 }
@@ -231,18 +234,14 @@ float distance_to_core(const Core& c, const Float3& p) {
   return length_of(c.rest(p - c.origin));
 }
 // Between the segments p + s d and q + t e, 0 <= s, t <= 1: at an end of one of them, or where both are
-// straight.
+// straight. There s comes from products with cross(d, e) and t from s: however small the angle, what is
+// rounded moves the distance by a few roundings of the lengths (dd ee - de de would cancel).
 float segment_distance(const Float3& p, const Float3& d, const Float3& q, const Float3& e) {
   const Core first{p, d, {}, 0}, second{q, e, {}, 0};
-  float least = std::min({distance_to_core(first, q), distance_to_core(first, q + e),
-                          distance_to_core(second, p), distance_to_core(second, p + d)});
-  const Float3 w = p - q;
-  const float dd = dot(d, d), ee = dot(e, e), de = dot(d, e), det = dd * ee - de * de;
-  if (det > k_tiny) {
-    const float s = (de * dot(e, w) - ee * dot(d, w)) / det, t = (dd * dot(e, w) - de * dot(d, w)) / det;
-    if (s > 0 && s < 1 && t > 0 && t < 1) least = std::min(least, length_of(w + d * s - e * t));
-  }
-  return least;
+  const Float3 n = cross(d, e);
+  const float s = unit_interval(dot(cross(e, p - q), n) / dot(n, n));
+  return std::min({distance_to_core(first, q), distance_to_core(first, q + e), distance_to_core(second, p),
+                   distance_to_core(second, p + d), distance_to_core(second, p + d * s)});
 }
 bool crosses_rectangle(const Core& c, const Float3& p, const Float3& d) {
   const Float3 n = cross(c.edge0, c.edge1);
@@ -257,17 +256,22 @@ bool hit(const Core& whole, const FloatRay& ray) {
   const float scale = sum_of(ray.origin - whole.centre()) + whole.reach();
   if (!(scale * scale > k_tiny) || !std::isfinite(scale * scale)) return true;  // squares mean nothing
   const Stretch s = stretch_of(ray, whole.centre(), whole.reach());
+  const float reach = whole.reach() + s.room;
   if (s.from > s.to) return s.from - s.to <= s.room;
-  Core c = whole;
-  c.origin = c.edge0 * -0.5f - c.edge1 * 0.5f;  // relative to the middle, as the stretch is
-  const Float3 p = s.origin + s.direction * s.from, d = s.direction * (s.to - s.from);
+  if (largest_of(s.origin) > reach) return false;
+  // relative to the middle, as the stretch is, and in units of the reach: products of four lengths neither
+  // overflow nor underflow
+  const float unit = 1 / reach;
+  Core c{{}, whole.edge0 * unit, whole.edge1 * unit, (whole.radius + s.room) * unit};
+  c.origin = c.edge0 * -0.5f - c.edge1 * 0.5f;
+  const Float3 p = (s.origin + s.direction * s.from) * unit, d = s.direction * ((s.to - s.from) * unit);
   if (crosses_rectangle(c, p, d)) return true;
   const Float3 corner = c.origin + c.edge0 + c.edge1;
   const float least =
       std::min({segment_distance(p, d, c.origin, c.edge0), segment_distance(p, d, c.origin, c.edge1),
                 segment_distance(p, d, corner, -c.edge0), segment_distance(p, d, corner, -c.edge1),
                 distance_to_core(c, p), distance_to_core(c, p + d)});
-  return !(least > c.radius + s.room);
+  return !(least > c.radius);
 }
 bool hit(const BoundingSphere<float>& v, const FloatRay& ray) {
   return hit(core_of(v), ray);
@@ -356,13 +360,15 @@ bool hit(const Cylinder<float>& v, const FloatRay& ray) {
 }
 bool hit(const Ellipsoid<float>& v, const FloatRay& ray) {
   Stretch s = stretch_of(ray, v.centre, sum_of(v.semi_axes));
+  const float reach = sum_of(v.semi_axes) + s.room;  // the unit of what follows: e is squared
   Float3 q, e;
   for (int i = 0; i < 3; ++i) {
     const Float3& axis = v.axes[static_cast<std::size_t>(i)];
     const float semi = v.semi_axes[i] + 2 * s.room;
     if (!(semi > 0)) return true;
-    q[i] = dot(axis, s.origin) / semi, e[i] = dot(axis, s.direction) / semi;
+    q[i] = dot(axis, s.origin) / semi, e[i] = dot(axis, s.direction) * (reach / semi);
   }
+  s.from /= reach, s.to /= reach, s.room /= reach;
   return cut_round(s, q, e, 1 + 16 * k_room);
 }
 

@@ -183,6 +183,89 @@ TEST(VolumeTests, RaysMeetWhatTheyPassThroughAndMissWhatTheyPassBy) {
   EXPECT_GT(misses, 500u);
 }
 
+// Each type, about a long axis of this length, `thin` of it thick, round a middle.
+std::vector<Volume<float>> needles(Random& random, const Double3& middle, double size, double thin) {
+  const Double3 u = unit_vector(random), v = normalized(cross(u, unit_vector(random))), w = cross(u, v);
+  const std::array<Float3, 3> axes{to_float(u), to_float(v), to_float(w)};
+  const Float3 a = to_float(middle - u * (size / 2)), b = to_float(middle + u * (size / 2));
+  const Float3 centre = to_float(middle), edge = to_float(u * size), little = to_float(v * (size * thin));
+  const float r = static_cast<float>(size * thin), half = static_cast<float>(size / 2);
+  Kdop<float> kdop{{axes[0], axes[1], axes[2]}, {}, {}};
+  for (int i = 0; i < 3; ++i) {
+    const double at = dot(to_double(axes[static_cast<std::size_t>(i)]), middle), h = i == 0 ? half : r;
+    kdop.min.push_back(static_cast<float>(at - h)), kdop.max.push_back(static_cast<float>(at + h));
+  }
+  return {
+      Capsule<float>{a, b, r},
+      Lozenge<float>{to_float(middle - u * (size / 2) - v * (size * thin / 2)), edge, little, r},
+      Lozenge<float>{to_float(middle - u * (size / 2) - v * (size / 4)), edge, to_float(v * (size / 2)), r},
+      Cylinder<float>{a, b, r},
+      OrientedBox<float>{centre, axes, {half, r, r}},
+      Ellipsoid<float>{centre, axes, {half, r, r}},
+      Ellipsoid<float>{centre, axes, {half, half / 2, 0}},
+      BoundingSphere<float>{centre, half},
+      std::move(kdop)};
+}
+
+TEST(VolumeTests, RaysThroughTheMiddleHitAtEverySizeAndThoseThatPassByMiss) {
+  Random random(6);
+  for (const double size : {1e-15, 1e-13, 1e-10, 1e-6, 1.0, 1e6, 1e10, 1e13, 1e15}) {
+    for (int i = 0; i < 40; ++i) {
+      for (const Volume<float>& v : needles(random, {}, size, 0.1)) {
+        const Double3 d = unit_vector(random), across = normalized(cross(d, unit_vector(random)));
+        const float far = static_cast<float>(size);
+        ASSERT_TRUE(meets_ray(v, {to_float(d * -size), to_float(d)})) << size << " " << v.index();
+        ASSERT_TRUE(meets_ray(v, {to_float(d * -size), to_float(d), far * 1.001f}))
+            << size << " " << v.index();
+        ASSERT_FALSE(meets_ray(v, {to_float(across * size * 0.8 - d * size), to_float(d)}))
+            << size << " " << v.index();
+        ASSERT_FALSE(meets_ray(v, {to_float(d * size), to_float(d)})) << size << " " << v.index();
+      }
+    }
+  }
+}
+
+TEST(VolumeTests, RaysAtASmallAngleToANeedleHitWhatTheyPassThrough) {
+  Random random(7);
+  for (const double thin : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    for (const double angle : {0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5}) {
+      for (int i = 0; i < 30; ++i) {
+        const Double3 middle = unit_vector(random) * random.uniform(0, 2);
+        for (const Volume<float>& v : needles(random, middle, 1, thin)) {
+          const Double3 axis = [&] {  // the long one; of the ball any
+            if (const auto* c = std::get_if<Capsule<float>>(&v)) return to_double(c->b - c->a);
+            if (const auto* c = std::get_if<Cylinder<float>>(&v)) return to_double(c->b - c->a);
+            if (const auto* l = std::get_if<Lozenge<float>>(&v)) return to_double(l->edge0);
+            if (const auto* b = std::get_if<OrientedBox<float>>(&v)) return to_double(b->axes[0]);
+            if (const auto* e = std::get_if<Ellipsoid<float>>(&v)) return to_double(e->axes[0]);
+            if (const auto* k = std::get_if<Kdop<float>>(&v)) return to_double(k->normals[0]);
+            return unit_vector(random);
+          }();
+          const Double3 u = normalized(axis), w = normalized(cross(u, unit_vector(random)));
+          const Double3 through = middle + u * random.uniform(-0.3, 0.3);
+          const Float3 d = to_float(normalized(u + w * angle));
+          const FloatRay ray{to_float(through - to_double(d) * random.uniform(1, 3)), d};
+          ASSERT_TRUE(meets_ray(v, ray)) << thin << " " << angle << " " << v.index();
+        }
+      }
+    }
+  }
+}
+
+TEST(VolumeTests, RaysAtASmallAngleThatPassANeedleByMissIt) {
+  Random random(8);
+  const Capsule<float> needle{{-0.5f, 0, 0}, {0.5f, 0, 0}, 1e-4f};
+  for (const double angle : {0.1, 0.01, 1e-3, 1e-4, 1e-5, 0.0}) {
+    for (int i = 0; i < 100; ++i) {
+      const double a = random.uniform(0, 2 * std::numbers::pi);
+      const Double3 out{0, std::cos(a), std::sin(a)}, side{0, -std::sin(a), std::cos(a)};
+      const Double3 d = normalized(Double3{1, 0, 0} + side * angle);
+      const Double3 past = out * 2e-4 + Double3{random.uniform(-0.3, 0.3), 0, 0};
+      EXPECT_FALSE(meets_ray(needle, {to_float(past - d), to_float(d)})) << angle;
+    }
+  }
+}
+
 TEST(VolumeTests, BoxesAndBallsThatShareAPointAreNeverToldApart) {
   Random random(5);
   std::size_t shared = 0, apart = 0;
