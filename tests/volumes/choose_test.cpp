@@ -72,6 +72,19 @@ TEST(Choose, RaysGoBySurfaceAndPlanesByMeanWidth) {
   EXPECT_EQ(chosen(c, Criterion::expected, {.content = 1000, .rays = 0}), 1u);
 }
 
+// A segment 1 long: rays miss it and its flat volumes, not its ball.
+TEST(Choose, WhatHasNoSurfaceLosesToNothingThatHasOne) {
+  const std::vector<Candidate> c{{VolumeKind::sphere, {0.52, 3.1, 1}},
+                                 {VolumeKind::capsule, {0, 0, 0.5}},
+                                 {VolumeKind::obb, {0, 0, 0.5}}};
+  EXPECT_EQ(chosen(c, Criterion::expected, {.content = 50, .rays = 1}), 1u);
+  EXPECT_EQ(chosen(c, Criterion::expected, {.content = 1, .rays = 0.01}), 1u);
+  EXPECT_EQ(chosen(c, Criterion::expected, {.content = 0, .rays = 1}), 0u);    // nothing is lost by any hit
+  EXPECT_EQ(chosen(c, Criterion::expected, {.content = 0.1, .rays = 0}), 0u);  // nor are there rays
+  const std::vector<Candidate> point{{VolumeKind::sphere, {0.52, 3.1, 1}}, {VolumeKind::capsule, {0, 0, 0}}};
+  EXPECT_EQ(chosen(point, Criterion::expected, {.content = 1, .rays = 0}), 1u);
+}
+
 TEST(Choose, PointsChooseTheCheapest) {
   EXPECT_EQ(choose(std::vector<Candidate>{{VolumeKind::obb, {}}, {VolumeKind::sphere, {}}}, Criterion::volume,
                    table_costs(), {}, 0),

@@ -11,8 +11,11 @@ constexpr double k_same = 1e-6;
 // Of the size: as thick is what outward rounding to float32 makes of a flat thing that is tilted.
 constexpr double k_flat = 8 * 0x1p-23;
 
-double ratio(double value, double least) {
-  return least > 0 ? value / least : 1;
+// Of hits that are let through to those that are needed. Round what nothing hits at random (a point, and of
+// rays a segment) all are needless, and no cost of a test outweighs that.
+double needless(double value, double least) {
+  if (least > 0) return value / least - 1;
+  return value > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
 }  // namespace
@@ -53,9 +56,10 @@ std::size_t choose(std::span<const Candidate> candidates, Criterion criterion, c
     const double volume = is_flat(c.measures, size) ? 0 : c.measures.volume, cost = costs.of(c);
     if (criterion == Criterion::weighted) return volume * cost;
     if (criterion != Criterion::expected) return volume;
-    const double needless = expected.rays * (ratio(c.measures.surface, surface) - 1) +
-                            (1 - expected.rays) * (ratio(c.measures.mean_width, width) - 1);
-    return cost + expected.content * needless;
+    double hits = 0;  // a share of none counts nothing, however many needless hits it has
+    if (expected.rays > 0) hits += expected.rays * needless(c.measures.surface, surface);
+    if (expected.rays < 1) hits += (1 - expected.rays) * needless(c.measures.mean_width, width);
+    return expected.content > 0 ? cost + expected.content * hits : cost;
   };
   double least = std::numeric_limits<double>::infinity();
   for (const Candidate& c : candidates) least = std::min(least, value(c));
