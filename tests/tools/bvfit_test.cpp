@@ -504,6 +504,49 @@ TEST_F(Bvfit, VerifyNamesTheAxisThatIsNotUnitAndNoMethodWhereNoneIsTold) {
   EXPECT_EQ(hair.err.find("by 0;"), std::string::npos) << hair.err;
 }
 
+TEST_F(Bvfit, VerifyNamesEdgesThatAreNotAtRightAnglesAndSlabsThatHoldNothingIn) {
+  const auto judged = [&](const std::string& volume) {
+    return run({"--verify", save("v.json", R"({"sets":[{"volumes":[)" + volume + "]}]}"), cube()});
+  };
+  const Outcome parallel =
+      judged(R"({"type":"lozenge","origin":[0,0,0],"edge0":[1,0,0],"edge1":[1,0,0],"radius":9})");
+  EXPECT_EQ(parallel.status, 1);
+  EXPECT_NE(parallel.err.find("edges are at 0 degrees"), std::string::npos) << parallel.err;
+  const Outcome skew =
+      judged(R"({"type":"lozenge","origin":[0,0,0],"edge0":[1,0,0],"edge1":[1,1,0],"radius":9})");
+  EXPECT_EQ(skew.status, 1);
+  EXPECT_NE(skew.err.find("edges are at 45 degrees"), std::string::npos) << skew.err;
+  const Outcome right =
+      judged(R"({"type":"lozenge","origin":[0,0,0],"edge0":[1,0,0],"edge1":[0,1,0],"radius":9})");
+  EXPECT_EQ(right.status, 0) << right.err;
+  const Outcome slab = judged(R"({"type":"kdop","normals":[[1,0,0]],"min":[-9],"max":[9]})");
+  EXPECT_EQ(slab.status, 1);
+  EXPECT_NE(slab.err.find("leave a direction open"), std::string::npos) << slab.err;
+}
+
+TEST_F(Bvfit, VerifyRefutesALowerBoundThatAQuickFitGoesBelow) {
+  const std::string ball = R"({"type":"sphere","center":[0.5,0.5,0.5],"radius":1,"lower_bound":)",
+                    box = R"({"type":"aabb","min":[-9,-9,-9],"max":[9,9,9],"lower_bound":)",
+                    slabs = R"({"type":"kdop","normals":[[1,0,0],[0,1,0],[0,0,1]],"min":[-9,-9,-9],)"
+                            R"("max":[9,9,9],"lower_bound":)",
+                    capsule =
+                        R"({"type":"capsule","a":[0.5,0.5,0],"b":[0.5,0.5,1],"radius":9,"lower_bound":)";
+  const auto judged = [&](const std::string& volume) {
+    return run({"--verify", save("v.json", R"({"sets":[{"volumes":[)" + volume + "}]}]}"), cube()});
+  };
+  // the least ball round the cube has 2.7207, the least box and slabs 1
+  for (const std::string& fair : {ball + "2.72", box + "1", slabs + "1", capsule + "1"}) {
+    const Outcome o = judged(fair);
+    EXPECT_EQ(o.status, 0) << fair << o.err;
+  }
+  for (const std::string& unfair : {ball + "2.722", box + "1.001", slabs + "1.001", capsule + "1000"}) {
+    const Outcome o = judged(unfair);
+    EXPECT_EQ(o.status, 1) << unfair;
+    EXPECT_NE(o.err.find("lower_bound"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("holds the points"), std::string::npos) << o.err;
+  }
+}
+
 TEST_F(Bvfit, NamesWithLineBreaksAndControlCharactersArePrintedEscaped) {
   const std::string wild = R"(bark\u001b[2J\nsphere holds all)";
   const json scene = json::parse(R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0,"name":")" + wild +

@@ -51,7 +51,7 @@ TEST(Certify, TheSurfaceIsInsideAndOneUnitBeyondItIsNot) {
   EXPECT_TRUE(inside(ellipsoid, {2, 0, 0}));
   EXPECT_FALSE(inside(ellipsoid, {2, 1e-160, 0}));
   EXPECT_FALSE(inside(ellipsoid, {0, 0, 1e-300}));
-  const Kdop<double> kdop{{{1, 1, 0}, {0, 0, 2}}, {0, -1}, {2, 1}};
+  const Kdop<double> kdop{{{1, 1, 0}, {0, 0, 2}, {1, -1, 0}}, {0, -1, -1}, {2, 1, 1}};
   EXPECT_TRUE(inside(kdop, {1, 1, 0.5}));
   EXPECT_FALSE(inside(kdop, {1, std::nextafter(1.0, 2.0), 0}));
 }
@@ -121,6 +121,17 @@ TEST(Certify, WhatIsNoVolumeContainsNothing) {
   EXPECT_FALSE(inside(Kdop<double>{{x}, {-1, -1}, {1}}, p));
   EXPECT_FALSE(inside(Kdop<double>{{p}, {-1}, {1}}, p));
   EXPECT_FALSE(inside(Kdop<double>{}, p));
+  // slabs that leave a direction open
+  EXPECT_FALSE(inside(Kdop<double>{{x}, {-1}, {1}}, p));
+  EXPECT_FALSE(inside(Kdop<double>{{x, x * 2, x * -3}, {-1, -1, -1}, {1, 1, 1}}, p));
+  EXPECT_FALSE(inside(Kdop<double>{{x, y, x + y, x - y}, {-1, -1, -1, -1}, {1, 1, 1, 1}}, p));
+  EXPECT_TRUE(inside(Kdop<double>{{x, x + y * 1e-3, z}, {-1, -1, -1}, {1, 1, 1}}, p));
+  for (const double s : {1e-30, 1.0, 1e30, 1e300}) {
+    EXPECT_FALSE(inside(Lozenge<double>{p, x * s, x * s, s}, p)) << s;
+    EXPECT_FALSE(inside(Lozenge<double>{p, x * s, (x + y) * s, s}, p)) << s;
+    EXPECT_FALSE(inside(Lozenge<double>{p, x * s, (x * 1e-5 + y) * s, s}, p)) << s;
+    EXPECT_TRUE(inside(Lozenge<double>{p, x * s, (x * 1e-7 + y) * s, s}, p)) << s;
+  }
 }
 
 TEST(Certify, SegmentsAndEdgesOfNoLengthArePoints) {

@@ -2,12 +2,15 @@
 
 #include "lib/analysis/volumes/certify.h"
 #include "lib/analysis/volumes/check_certificates.h"
+#include "lib/analysis/volumes/fit_volumes.h"
 #include "lib/analysis/volumes/volume_measures.h"
 #include "lib/formats/container/mapped_file.h"
 #include "lib/formats/printable.h"
 #include "tools/bvfit/volumes_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -126,27 +129,55 @@ std::string distance_text(double d) {
   return std::isfinite(d) ? fmt::format("{:.3g}", d) : "no distance that can be told";
 }
 
-// What is wrong with the axes of a box or an ellipsoid, which makes it hold nothing; empty when nothing is.
-std::string false_axes(const Volume<double>& volume) {
-  constexpr double k_rounding = 1e-6;  // as certify takes it
-  return std::visit(
-      [](const auto& v) -> std::string {
-        if constexpr (requires { v.axes; }) {
-          for (std::size_t i = 0; i < v.axes.size(); ++i) {
-            if (const double square = dot(v.axes[i], v.axes[i]); !(std::abs(square - 1) <= k_rounding))
-              return fmt::format("axis {} is {:.9g} long and not 1", i, std::sqrt(square));
-          }
-          for (std::size_t i = 0; i < v.axes.size(); ++i) {
-            const std::size_t j = (i + 1) % v.axes.size();
-            const double cosine = dot(v.axes[i], v.axes[j]);
-            if (std::abs(cosine) <= k_rounding) continue;
-            return fmt::format("axes {} and {} are at {:.9g} degrees and not at right angles", std::min(i, j),
-                               std::max(i, j), std::acos(cosine) * 180 / std::numbers::pi);
-          }
-        }
-        return "";
-      },
-      volume);
+constexpr double k_rounding = 1e-6;  // of axes, as certify takes it
+
+double degrees_between(const Double3& a, const Double3& b) {
+  return std::acos(std::clamp(dot(a / length(a), b / length(b)), -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+struct Fault {
+  std::string what, mend;
+};
+
+// What is wrong with the directions of a volume, which makes it hold nothing; none when that is not why.
+template <class V>
+std::optional<Fault> fault_of(const V&) {
+  return std::nullopt;
+}
+template <class V>
+requires requires(const V& v) {
+  v.axes;
+}
+std::optional<Fault> fault_of(const V& v) {
+  const std::string mend = "write unit axes at right angles";
+  for (std::size_t i = 0; i < v.axes.size(); ++i) {
+    if (const double square = dot(v.axes[i], v.axes[i]); !(std::abs(square - 1) <= k_rounding))
+      return Fault{fmt::format("axis {} is {:.9g} long and not 1", i, std::sqrt(square)), mend};
+  }
+  for (std::size_t i = 0; i < v.axes.size(); ++i) {
+    const std::size_t j = (i + 1) % v.axes.size();
+    if (std::abs(dot(v.axes[i], v.axes[j])) <= k_rounding) continue;
+    return Fault{fmt::format("axes {} and {} are at {:.9g} degrees and not at right angles", std::min(i, j),
+                             std::max(i, j), degrees_between(v.axes[i], v.axes[j])),
+                 mend};
+  }
+  return std::nullopt;
+}
+template <>
+std::optional<Fault> fault_of(const Lozenge<double>& v) {
+  if (length(v.edge0) == 0 || length(v.edge1) == 0) return std::nullopt;
+  const double degrees = degrees_between(v.edge0, v.edge1);
+  if (std::abs(degrees - 90) * std::numbers::pi / 180 <= k_rounding) return std::nullopt;
+  return Fault{fmt::format("edges are at {:.9g} degrees and not at right angles", degrees),
+               "write edges at right angles"};
+}
+template <>
+std::optional<Fault> fault_of(const Kdop<double>& v) {
+  if (!std::isinf(measures_of(v).volume)) return std::nullopt;
+  return Fault{"slabs leave a direction open", "write slabs whose normals span space"};
+}
+std::optional<Fault> false_directions(const Volume<double>& volume) {
+  return std::visit([](const auto& v) { return fault_of(v); }, volume);
 }
 
 // An envelope whose motion nobody has told is judged by what is at rest, and says so.
@@ -163,17 +194,60 @@ std::string line_of(const Verdict& v) {
                      v.certificate.points, distance_text(v.certificate.excess));
 }
 
+constexpr double k_digits = 1e-5;  // of numbers that volumes say of themselves, relative
+
+// What a flat thing's volume cancels from.
+double flat_room(const VolumeMeasures& m) {
+  return 1e-12 * m.surface * m.mean_width;
+}
+
 // What is wrong with the numbers that a volume says of itself; empty when nothing is.
 std::string false_numbers(const ReadVolume& v) {
-  constexpr double k_digits = 1e-5,
-                   k_flat = 1e-12;  // relative, and of what a flat thing's volume cancels from
   const VolumeMeasures m = measures_of(v.volume);
-  const double room = k_digits * m.volume + k_flat * m.surface * m.mean_width;
+  const double room = k_digits * m.volume + flat_room(m);
   if (v.says_volume && !(std::abs(*v.says_volume - m.volume) <= room))
     return fmt::format("its \"volume\" is {:.6g}, not {:.6g}", m.volume, *v.says_volume);
   if (v.says_bound && !(*v.says_bound >= 0 && *v.says_bound <= m.volume + room))
     return fmt::format("its \"lower_bound\" {:.6g} is no bound of its volume, {:.6g}", *v.says_bound,
                        m.volume);
+  return "";
+}
+
+// Its slabs, as near to the points as they go.
+Kdop<double> drawn_tight(Kdop<double> v, std::span<const Double3> points) {
+  for (std::size_t i = 0; i < v.normals.size(); ++i) {
+    v.min[i] = std::numeric_limits<double>::infinity(), v.max[i] = -v.min[i];
+    for (const Double3& p : points) {
+      const double x = dot(v.normals[i], p);
+      v.min[i] = std::min(v.min[i], x), v.max[i] = std::max(v.max[i], x);
+    }
+  }
+  return v;
+}
+
+// A smaller volume of its kind round the same points than its lower bound allows; empty when the quick fits
+// and the minimal sphere find none. What holds the points is found anew only for volumes that claim a bound.
+std::string false_bound(const ReadVolume& v, std::span<const Double3> points) {
+  if (!v.says_bound || !(*v.says_bound > 0) || points.empty()) return "";
+  const auto refutes = [&](const VolumeMeasures& m) {
+    return *v.says_bound > m.volume * (1 + k_digits) + flat_room(m);
+  };
+  const auto text = [&](const std::string& what, const VolumeMeasures& m) {
+    return fmt::format("its \"lower_bound\" {:.6g} is none: {} of {:.6g} holds the points", *v.says_bound,
+                       what, m.volume);
+  };
+  if (const auto* kdop = std::get_if<Kdop<double>>(&v.volume)) {
+    const VolumeMeasures m = measures_of(drawn_tight(*kdop, points));
+    return refutes(m) ? text("one with the same normals", m) : "";
+  }
+  const auto fitter = VolumeFitter::make(points);
+  if (!fitter) return "";  // float32 cannot hold what is as large
+  for (const FitMethod& m : fit_methods()) {
+    if (static_cast<std::size_t>(m.kind) != v.volume.index()) continue;
+    if (!m.quick && !(m.least && m.kind == VolumeKind::sphere)) continue;
+    const auto fit = fitter->fit(m, {.quality = FitQuality::fast});
+    if (fit && fit->certified && refutes(fit->measures)) return text(m.name + " one", fit->measures);
+  }
   return "";
 }
 
@@ -203,7 +277,12 @@ Result<void> verify_volumes(const Options& options, Context& context) {
       ++judged;
       if (!context.options().quiet || !v.certificate.holds()) context.print(line_of(v));
       if (v.certificate.holds()) {
-        if (const std::string wrong = false_numbers(volume); !wrong.empty() && lie.empty())
+        if (!lie.empty()) continue;
+        std::string wrong = false_numbers(volume);
+        // points at rest tell nothing of a bound that holds for their motion
+        const bool all = set.motion == VolumeMotion::rest || set.sway > 0;
+        if (wrong.empty() && all) wrong = false_bound(volume, *points);
+        if (!wrong.empty())
           lie = fmt::format("{}{} of '{}': {}", volume.type, method_text(volume), v.set, wrong);
         continue;
       }
@@ -222,9 +301,8 @@ Result<void> verify_volumes(const Options& options, Context& context) {
   const std::string which =
       fmt::format("{} of {} volumes leave points outside; the worst is {}{} of '{}'", failed, judged,
                   worst.volume->type, method_text(*worst.volume), worst.set);
-  if (const std::string axes = false_axes(worst.volume->volume); !axes.empty())
-    return refuse(options.verify.string(), fmt::format("{}: its {}", which, axes),
-                  "write unit axes at right angles");
+  if (const auto fault = false_directions(worst.volume->volume))
+    return refuse(options.verify.string(), fmt::format("{}: its {}", which, fault->what), fault->mend);
   return refuse(
       options.verify.string(),
       fmt::format("{}: point {} ({}, {}, {}) lies outside by {}", which, worst.certificate.worst,

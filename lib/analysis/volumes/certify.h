@@ -24,8 +24,9 @@ struct Certificate {
   bool holds() const { return outside == 0; }
 };
 
-// Finite points. A volume that is none (a number that is not finite, a negative radius or extent, a cylinder
-// without a length, a k-DOP whose arrays differ in size) contains nothing. O(points); some 30 ns a point.
+// Finite points. A volume that is none (a number that is not finite, a negative radius or extent, axes that
+// are not unit and at right angles, a lozenge whose edges are not, a cylinder without a length, a k-DOP whose
+// arrays differ in size or whose normals do not span space) contains nothing. O(points); some 30 ns a point.
 Certificate certify(const Volume<double>& volume, std::span<const Double3> points);
 Certificate certify(const Volume<float>& volume, std::span<const Double3> points);
 

@@ -225,11 +225,34 @@ bool sound(const Capsule<double>& v) {
 bool sound(const Cylinder<double>& v) {
   return is_finite(v.a) && is_finite(v.b) && sound(v.radius) && v.a != v.b;
 }
+// At right angles as far as float32 can say it, down to where its numbers have few digits left.
+bool orthogonal(const Double3& a, const Double3& b) {
+  constexpr double k_rounding = 1e-6, k_denormal = std::numeric_limits<float>::denorm_min();
+  const double la = length(a), lb = length(b);
+  if (la == 0 || lb == 0) return true;
+  return std::abs(dot(a / la, b / lb)) <= k_rounding + 2 * k_denormal / std::min(la, lb);
+}
 bool sound(const Lozenge<double>& v) {
-  return is_finite(v.origin) && is_finite(v.edge0) && is_finite(v.edge1) && sound(v.radius);
+  return is_finite(v.origin) && is_finite(v.edge0) && is_finite(v.edge1) && sound(v.radius) &&
+         orthogonal(v.edge0, v.edge1);
 }
 bool sound(const Ellipsoid<double>& v) {
   return framed(v, v.semi_axes);
+}
+// Whether slabs with these normals, none 0, bound anything: three of them span space.
+bool span_space(std::span<const Double3> normals) {
+  constexpr double k_rounding = 1e-12;
+  const auto unit = [&](std::size_t i) { return normals[i] / length(normals[i]); };
+  Double3 plane;  // normal to the first and to what is farthest from it
+  for (std::size_t i = 1; i < normals.size(); ++i) {
+    const Double3 n = cross(unit(0), unit(i));
+    if (dot(n, n) > dot(plane, plane)) plane = n;
+  }
+  const double l = length(plane);
+  for (std::size_t i = 1; l > k_rounding && i < normals.size(); ++i) {
+    if (std::abs(dot(plane / l, unit(i))) > k_rounding) return true;
+  }
+  return false;
 }
 bool sound(const Kdop<double>& v) {
   bool ok = v.normals.size() == v.min.size() && v.normals.size() == v.max.size() && !v.normals.empty();
@@ -237,7 +260,7 @@ bool sound(const Kdop<double>& v) {
     ok = is_finite(v.normals[i]) && v.normals[i] != Double3{} && std::isfinite(v.min[i]) &&
          std::isfinite(v.max[i]);
   }
-  return ok;
+  return ok && span_space(v.normals);
 }
 
 // --- how far out a point is, roughly: to find the worst
