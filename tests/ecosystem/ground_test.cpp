@@ -84,5 +84,43 @@ TEST(Ground, FarFromTheOriginNothingIsLost) {
   EXPECT_NEAR(TerrainGround(t).at(1e7 + 0.3125, -1e7 + 1)->height, 100.3125, 1e-8);
 }
 
+// A square on its corner, 500 m up, half of its box empty; it rises along +X.
+Terrain diamond() {
+  Terrain t = free_terrain(2, 2, {{0, 5, 10}, {10, 10, 0}, {10, 15, 20}, {20, 20, 10}});
+  t.origin = {0, 500, 0};
+  return t;
+}
+
+TEST(Ground, AFreeSurfaceDoesNotCoverTheCornersOfItsBox) {
+  const Terrain t = diamond();
+  const TerrainGround ground(t);
+  EXPECT_TRUE(ground.covers(10, 10));
+  EXPECT_TRUE(ground.covers(0, 10));
+  EXPECT_FALSE(ground.covers(0.5, 0.5));
+  EXPECT_FALSE(ground.covers(30, 30));
+  EXPECT_FALSE(ground.covers(std::nan(""), 10));
+  const Terrain r = regular_terrain(5, 4, [](double x, double) { return x; });
+  EXPECT_TRUE(TerrainGround(r).covers(4, 0));
+  EXPECT_FALSE(TerrainGround(r).covers(4.01, 0));  // though at() has a height for it
+}
+
+TEST(Ground, BesideAFreeSurfaceItIsThatOfTheNearestVertex) {
+  const Terrain t = diamond();
+  const TerrainGround ground(t);
+  GroundBeside all(t, ground);
+  const struct {
+    double x, z, height;
+  } cases[] = {{0.5, 4, 505}, {4, 0.5, 510}, {-1e6, 10, 505}, {30, 12, 520}, {12, 30, 515}};
+  for (const auto& c : cases) EXPECT_NEAR(all.at(c.x, c.z).height, c.height, 1e-9) << c.x << ", " << c.z;
+  EXPECT_EQ(all.at(9, 11).height, ground.at(9, 11)->height);  // on it nothing changes
+  EXPECT_LT(distance(all.at(-5, 10).normal, ground.at(0, 10)->normal), 1e-12);
+}
+
+TEST(Ground, BesideAWallTheVertexIsAllThereIs) {
+  const Terrain t = free_terrain(2, 2, {{0, 3, 0}, {5, 3, 0}, {0, 9, 0}, {5, 9, 0}});
+  const TerrainGround ground(t);
+  EXPECT_EQ(GroundBeside(t, ground).at(-1, 1).height, 3);
+}
+
 }  // namespace
 }  // namespace copse

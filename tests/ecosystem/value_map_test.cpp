@@ -3,6 +3,7 @@
 #include "lib/formats/random.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -47,6 +48,26 @@ TEST(ValueMap, TheLeastInARectangleIsAtMostWhatIsReadThere) {
   EXPECT_EQ(least_in(map, area, -1, 4, 8, 25),
             static_cast<double>(*std::min_element(map.values.begin(), map.values.end())));
   EXPECT_EQ(least_in({}, area, 0, 5, 1, 6), 0);
+}
+
+TEST(ValueMap, MeansBySizeAreOneMapOfEverySizeHoweverManyThereAre) {
+  const ValueMap small{2, 1, {1, -5}}, tall{1, 2, {8, 4}}, other{2, 1, {3, 0}};
+  const std::vector<const ValueMap*> maps{&small, &tall, &other, &small};
+  const auto means = means_by_size(maps);
+  ASSERT_EQ(means.size(), 2u);
+  EXPECT_EQ(means[0].width, 2u);
+  EXPECT_EQ(means[0].values, (std::vector<float>{5 / 4.0f, 0}));
+  EXPECT_EQ(means[1].height, 2u);
+  EXPECT_EQ(means[1].values, (std::vector<float>{2, 1}));
+  EXPECT_TRUE(means_by_size({}).empty());
+}
+
+TEST(ValueMap, MeansOfTheLargestAndTheLeastFloatsAreNeitherInfiniteNorNothing) {
+  const float most = std::numeric_limits<float>::max(), least = std::numeric_limits<float>::denorm_min();
+  const ValueMap a{2, 1, {most, least}}, b{2, 1, {most, 0}};
+  const std::vector<const ValueMap*> maps{&a, &b, &b};
+  const auto means = means_by_size(maps);
+  EXPECT_EQ(means[0].values, (std::vector<float>{most, least}));
 }
 
 }  // namespace

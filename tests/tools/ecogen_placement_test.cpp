@@ -37,6 +37,27 @@ TEST_F(Ecogen, AOneTriangleTerrainIsPlantedOnTheTriangle) {
     }
 }
 
+TEST_F(Ecogen, ByHandBesideAFreeSurfaceStandsAsHighAsItsNearestPartAndIsToldOf) {
+  page_["terrain"] = Json::parse(
+      R"({"origin": [0, 500, 0], "samples": [2, 2],
+          "nurbs": {"degree": [1, 1], "points": [[[0,0,10],[10,5,0]],[[10,0,20],[20,5,10]]]}})");
+  for (Json& type : page_["types"]) type["count"] = 0;
+  // In the box of the surface and off it; out of the box; on it.
+  page_["types"][0]["instances"] =
+      Json::parse(R"([{"x": 0.5, "z": 0.5}, {"x": 30, "z": 30}, {"x": 10, "z": 10}])");
+  const Outcome o = run();
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.err.find("2 by hand stand outside the terrain"), std::string::npos) << o.err;
+  const Ecosystem eco = load();
+  ASSERT_EQ(eco.instance_count(), 3u);
+  for (const InstanceBlock& b : eco.blocks)
+    for (std::size_t i = b.first; i < b.first + b.count; ++i) {
+      const double y = instance_of(eco, b, i).position.y;
+      EXPECT_GE(y, 500 - 1e-3);
+      EXPECT_LE(y, 505 + 1e-3);
+    }
+}
+
 // Two pixels of so many channels, uncompressed, the second one alpha.
 std::string grey_tiff(const std::vector<std::uint8_t>& values, std::uint16_t channels) {
   const std::vector<std::array<std::uint32_t, 3>> tags{

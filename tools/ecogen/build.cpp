@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <tuple>
 
@@ -51,15 +52,15 @@ std::unexpected<Error> named_at(const std::string& place, Error error) {
   return std::unexpected(std::move(error));
 }
 
-Instance instance_of(const PlantedSource& p, const TypeSource& type, const TerrainGround& ground) {
+Instance instance_of(const PlantedSource& p, const TypeSource& type, GroundBeside& ground) {
   Instance i;
-  const auto here = ground.at(p.x, p.z);
-  i.position = {p.x, p.y.value_or(here ? here->height : 0), p.z};
+  const GroundPoint here = ground.at(p.x, p.z);
+  i.position = {p.x, p.y.value_or(here.height), p.z};
   i.on_ground = !p.y;
   const Quaternion tilt = tilt_of(p.pitch, p.roll);
   const bool upright = p.pitch == 0 && p.roll == 0;
-  i.along_normal = upright && type.tilt_to_ground && here;
-  i.rotation = with_head(i.along_normal ? tilt_to(here->normal) : tilt, p.head);
+  i.along_normal = upright && type.tilt_to_ground;
+  i.rotation = with_head(i.along_normal ? tilt_to(here.normal) : tilt, p.head);
   i.scale = p.scale;
   i.trunk_material = p.trunk_material;
   i.leaf_material = p.leaf_material;
@@ -147,6 +148,7 @@ class Builder {
   Result<void> plan_types(const TerrainGround& ground) {
     Stage stage = context_.stage("maps");
     plans_.reserve(scene_.types.size());
+    GroundBeside all_ground(built_.eco.terrain, ground);
     const auto leans = [](const TypeSource& t) { return t.tilt_to_ground && t.crown_footprint; };
     const bool any = std::any_of(scene_.types.begin(), scene_.types.end(), leans);
     const SinCos steepest = any ? steepest_slope(built_.eco.terrain) : SinCos{};
@@ -164,7 +166,7 @@ class Builder {
       p.spacing = s.spacing;
       p.avoid = s.avoid;
       p.fewer = s.fewer;
-      for (const PlantedSource& planted : s.planted) p.manual.push_back(instance_of(planted, s, ground));
+      for (const PlantedSource& planted : s.planted) p.manual.push_back(instance_of(planted, s, all_ground));
       tell_outside(p, ground);
       const std::tuple<const char*, const std::optional<MapSource>*, const ValueMap**> maps[] = {
           {"scale_map", &s.scale_map, &p.scale_map},
@@ -186,19 +188,23 @@ class Builder {
 
   void tell_outside(const TypePlan& p, const TerrainGround& ground) {
     const auto outside = std::count_if(p.manual.begin(), p.manual.end(), [&](const Instance& i) {
-      return i.on_ground && !(i.position.x >= ground.x0() && i.position.x <= ground.x1() &&
-                              i.position.z >= ground.z0() && i.position.z <= ground.z1());
+      return i.on_ground && !ground.covers(i.position.x, i.position.z);
     });
     if (outside > 0)
       context_.warn(
-          fmt::format("{}: {} by hand stand outside the terrain, at the height of its border; give them "
-                      "a y, or move them",
+          fmt::format("{}: {} by hand stand outside the terrain, at the height of its nearest part; give "
+                      "them a y, or move them",
                       p.name, outside));
   }
 
   // The types of a mix share its count as their maps share its density.
   Result<void> share_mixes(const TerrainGround& ground) {
+    if (scene_.mixes.empty()) return {};
+    Stage stage = context_.stage("mixes");
     const PlantedArea area = area_of(scene_, ground);
+    std::uint64_t parts = 0, done = 0;
+    for (const MixSource& mix : scene_.mixes) parts += mix.parts.size();
+    stage.items(parts, "parts");
     for (std::size_t m = 0; m < scene_.mixes.size(); ++m) {
       const MixSource& mix = scene_.mixes[m];
       auto density = inputs_.map(mix.density);
@@ -215,6 +221,7 @@ class Builder {
       std::uint32_t side = 0;
       for (const MixSource::Part& part : mix.parts)
         side = std::max(side, field_side(largest, mix.count, plans_[part.type].rules.clusters, area));
+      const std::vector<ValueMap>& totals = share_totals_.emplace_back(means_by_size(shares));
       std::vector<double> weights;
       for (std::size_t i = 0; i < mix.parts.size(); ++i) {
         TypePlan& plan = plans_[mix.parts[i].type];
@@ -222,9 +229,10 @@ class Builder {
         plan.field_cells = side;
         rules.density = *density;
         rules.share_of = shares[i];
-        rules.share_total = shares;
+        for (const ValueMap& total : totals) rules.share_total.push_back(&total);
         weights.push_back(
             field_of(plan, mix.parts[i].type, ground, area, random_.fork(stream_plants)).total());
+        stage.progress(static_cast<double>(++done) / static_cast<double>(parts));
       }
       const auto counts = apportion(mix.count, weights);
       for (std::size_t i = 0; i < counts.size(); ++i) plans_[mix.parts[i].type].count = counts[i];
@@ -329,6 +337,7 @@ class Builder {
   Context& context_;
   Inputs inputs_;
   Random random_;
+  std::deque<std::vector<ValueMap>> share_totals_;  // of every mix; plans point at them
   std::vector<TypePlan> plans_;
   Built built_;
 };

@@ -31,7 +31,7 @@ struct PlacementRules {
   const ValueMap* density = nullptr;    // >= 0, any scale
   const ValueMap* forbidden = nullptr;  // nothing stands where it is at least 1/2
   const ValueMap* share_of = nullptr;   // of a species mix: density is multiplied by share_of / share_total
-  std::vector<const ValueMap*> share_total{};
+  std::vector<const ValueMap*> share_total{};  // summed up: every point asks each (means_by_size: few)
   const ValueMap* distance_to =
       nullptr;  // `distance` is that to its pixels of at least 1/2 (pixel_distance.h)
   ValueRange distance{}, slope{}, altitude{};  // m, degrees, m

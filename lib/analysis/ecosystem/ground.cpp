@@ -83,6 +83,10 @@ std::optional<GroundPoint> TerrainGround::at(double x, double z) const {
   return at_free(x, z);
 }
 
+bool TerrainGround::covers(double x, double z) const {
+  return x >= x0_ && x <= x1_ && z >= z0_ && z <= z1_ && at(x, z).has_value();
+}
+
 GroundPoint TerrainGround::at_regular(double x, double z) const {
   const Terrain& t = terrain_;
   const double u = std::clamp((x - t.origin.x) / t.spacing_x, 0.0, t.columns - 1.0);
@@ -119,6 +123,25 @@ std::optional<GroundPoint> TerrainGround::at_free(double x, double z) const {
     if (!best || height > best->height) best = GroundPoint{height, upward(cross(t[1] - t[0], t[2] - t[0]))};
   }
   return best;
+}
+
+GroundPoint GroundBeside::at(double x, double z) {
+  if (const auto here = ground_.at(x, z)) return *here;
+  if (terrain_.columns == 0) return {};
+  if (!nearest_) {
+    vertices_.reserve(terrain_.vertex_count());
+    for (std::uint32_t r = 0; r < terrain_.rows; ++r)
+      for (std::uint32_t c = 0; c < terrain_.columns; ++c) {
+        const Double3 v = terrain_.vertex(c, r);
+        vertices_.push_back({v.x, 0, v.z});
+      }
+    nearest_.emplace(vertices_);
+  }
+  const std::uint32_t v = nearest_->nearest({x, 0, z});
+  if (v == k_none) return {};
+  // A vertex of nothing but upright triangles has no ground of its own.
+  const GroundPoint lone{terrain_.vertex(v % terrain_.columns, v / terrain_.columns).y, {0, 1, 0}};
+  return ground_.at(vertices_[v].x, vertices_[v].z).value_or(lone);
 }
 
 }  // namespace copse

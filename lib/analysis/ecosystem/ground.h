@@ -5,6 +5,7 @@
 // a grid of buckets, O(1) on terrains whose triangles are of like size.
 #pragma once
 
+#include "lib/analysis/leaves/nearest_points.h"
 #include "lib/formats/ecosystem/ecosystem.h"
 
 #include <cstdint>
@@ -36,6 +37,8 @@ class TerrainGround {
 
   // None: no triangle there. On a regular grid points outside are moved to the border.
   std::optional<GroundPoint> at(double x, double z) const;
+  // Whether a triangle lies there, with nothing moved. False of what is not finite.
+  bool covers(double x, double z) const;
 
  private:
   GroundPoint at_regular(double x, double z) const;
@@ -46,6 +49,22 @@ class TerrainGround {
   double x0_ = 0, z0_ = 0, x1_ = 0, z1_ = 0;
   std::uint32_t across_ = 0, down_ = 0;  // buckets
   std::vector<std::uint32_t> first_, triangles_;
+};
+
+// The ground for what stands beside it too: there it is that of the terrain's vertex that is nearest as seen
+// from above, of several the first. The vertices are sorted once, where there are points beside a free
+// surface at all; then O(log vertices) a point.
+class GroundBeside {
+ public:
+  // Both must outlive it.
+  GroundBeside(const Terrain& terrain, const TerrainGround& ground) : terrain_(terrain), ground_(ground) {}
+  GroundPoint at(double x, double z);
+
+ private:
+  const Terrain& terrain_;
+  const TerrainGround& ground_;
+  std::vector<Double3> vertices_;  // y = 0
+  std::optional<NearestPoints> nearest_;
 };
 
 }  // namespace copse

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace copse {
 namespace {
@@ -59,6 +60,29 @@ double least_in(const ValueMap& map, const PlantedArea& area, double x0, double 
     for (std::uint32_t c = c0; c <= c1; ++c)
       least = std::min(least, map.values[std::size_t{r} * map.width + c]);
   return static_cast<double>(least);
+}
+
+std::vector<ValueMap> means_by_size(std::span<const ValueMap* const> maps) {
+  const auto same_size = [](const ValueMap& a, const ValueMap& b) {
+    return a.width == b.width && a.height == b.height;
+  };
+  std::vector<ValueMap> out;
+  for (std::size_t first = 0; first < maps.size(); ++first) {
+    const ValueMap& like = *maps[first];
+    if (std::any_of(out.begin(), out.end(), [&](const ValueMap& m) { return same_size(m, like); })) continue;
+    std::vector<double> sums(like.values.size());
+    for (const ValueMap* map : maps.subspan(first))
+      for (std::size_t i = 0; same_size(*map, like) && i < sums.size(); ++i)
+        sums[i] += std::max(static_cast<double>(map->values[i]), 0.0);
+    ValueMap mean{like.width, like.height, {}};
+    mean.values.reserve(sums.size());
+    for (const double sum : sums)
+      mean.values.push_back(sum > 0 ? std::max(static_cast<float>(sum / static_cast<double>(maps.size())),
+                                               std::numeric_limits<float>::denorm_min())
+                                    : 0.0f);
+    out.push_back(std::move(mean));
+  }
+  return out;
 }
 
 }  // namespace copse

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace copse {
@@ -30,5 +31,10 @@ double smooth_at(const ValueMap& map, const PlantedArea& area, double x, double 
 // At most what smooth_at is anywhere from (x0, z0) to (x1, z1): the least of the pixels that have a part in
 // it.
 double least_in(const ValueMap& map, const PlantedArea& area, double x0, double z0, double x1, double z1);
+
+// One map for each size among `maps`, in the order in which sizes come first: the sum of those of that size,
+// what is below 0 counted as 0, over the number of all `maps`, so that it stays a float; above 0 wherever one
+// of them is. O(pixels).
+std::vector<ValueMap> means_by_size(std::span<const ValueMap* const> maps);
 
 }  // namespace copse
