@@ -87,6 +87,15 @@ TEST(Html, ShowsEveryPartOfAReport) {
   }
 }
 
+TEST(Html, OnlyOneOutputThatHoldsItsInputIsAShareOfIt) {
+  Report r = rich_report();
+  r.outputs.front().path = "forest.eco";  // names its trees
+  EXPECT_EQ(to_html(r).find(" % of the input"), std::string::npos);
+  r = rich_report();
+  r.outputs.push_back({"oak.png", 10, "xxh3:3"});
+  EXPECT_EQ(to_html(r).find(" % of the input"), std::string::npos);
+}
+
 TEST(Html, DrawingThePageIsNoPartOfTheTimeNorOfTheRate) {
   Report r = rich_report();
   r.seconds = 4;

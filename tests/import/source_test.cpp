@@ -69,7 +69,7 @@ TEST(Source, FilesThatCannotBeReadAreAnIoError) {
             "import: error: " + (folder.path() / "none.obj").string() +
                 ": cannot be read: No such file or directory; check the name and the permissions");
   EXPECT_EQ(error_of(import_mesh(folder.path())),
-            "import: error: " + folder.path().string() + ": is a folder; name a mesh file in it");
+            "import: error: " + folder.path().string() + ": is a folder; name a file in it");
 }
 
 TEST(Source, AnEmptyFileAndAnUnknownOneAreRefused) {

@@ -147,6 +147,30 @@ TEST_F(Ecogen, ExtremesHaveADefinedResult) {
   ASSERT_EQ(run().status, 0);
 }
 
+// A forest has fewer trees than its ground has vertices, and is no ground.
+TEST_F(Ecogen, ThePageBeginsWithTheEcosystemAndItsInstances) {
+  const Outcome o = run({"--export", file("q.csv"), "--html", file("out.html")});
+  ASSERT_EQ(o.status, 0) << o.err;
+  const std::string page = read_text(file("out.html"));
+  EXPECT_NE(page.find("made out.eco and q.csv"), std::string::npos);
+  EXPECT_NE(page.find("<dt>instances</dt><dd>250</dd>"), std::string::npos);
+  EXPECT_EQ(page.find(" % of the input"), std::string::npos);
+}
+
+TEST_F(Ecogen, TwoExportsOfOneNameAreRefused) {
+  std::filesystem::create_directory(file("d"));
+  const Outcome o = run({"--export", file("q.csv"), "--export", file("d/../q.csv")});
+  EXPECT_EQ(o.status, 2);
+  EXPECT_NE(o.err.find("two outputs of this run have this name"), std::string::npos) << o.err;
+  EXPECT_FALSE(std::filesystem::exists(file("q.csv")));
+}
+
+TEST_F(Ecogen, AFolderForAMapIsNoMesh) {
+  page_["types"][0]["density"] = ".";
+  const std::string line = refusal(3);
+  EXPECT_NE(line.find("types[0].density: is a folder; name a file in it"), std::string::npos) << line;
+}
+
 TEST_F(Ecogen, SeedsMayBeAsLargeAsTheyAreInTheFile) {
   page_["seed"] = std::numeric_limits<std::uint64_t>::max();
   ASSERT_EQ(run().status, 0) << run().err;

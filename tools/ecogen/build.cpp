@@ -119,7 +119,13 @@ class Builder {
     const Double3 centre = box.centre();
     built_.eco.origin = {std::floor(centre.x), std::floor(centre.y), std::floor(centre.z)};
     built_.eco.bounds = round_outward({box.min - built_.eco.origin, box.max - built_.eco.origin});
-    stage.items(t.vertex_count(), "vertices");
+    // Not as items of the stage: the most that a stage went through is the headline of the report's page, and
+    // that of a forest are its instances.
+    context_.report().tables.push_back(
+        {"ground",
+         {"columns", "rows", "vertices", "stored as"},
+         {{std::to_string(t.columns), std::to_string(t.rows), std::to_string(t.vertex_count()),
+           t.regular() ? "heights of a grid" : "points"}}});
     return {};
   }
 

@@ -13,6 +13,7 @@
 #include "tools/treeplay/path_file.h"
 
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -111,16 +112,35 @@ Result<std::optional<CameraPath>> read_frames(const Options& options, Context& c
   return std::optional(std::move(*path));
 }
 
-Result<void> make(const Options& options, Context& context) {
+Result<void> check_outputs(const Options& options, Context& context) {
   if (options.output.extension() != ".eco")
     return fail(Fault::usage, options.output.string(),
                 options.output.empty() ? "no output is named" : "is not the name of an ecosystem",
                 "add -o NAME.eco");
   if (auto writable = context.check_output(options.output); !writable) return writable;
+  std::set<fs::path> names;
   for (const fs::path& file : options.exports) {
     if (auto known = check_export(file); !known) return known;
     if (auto file_writable = context.check_output(file); !file_writable) return file_writable;
+    std::error_code error;
+    const fs::path name = fs::weakly_canonical(fs::absolute(file), error);
+    if (!error && !names.insert(name).second)
+      return fail(Fault::usage, file.string(), "two outputs of this run have this name",
+                  "give each a name of its own");
   }
+  return {};
+}
+
+Result<void> write_eco(const Ecosystem& eco, const Options& options, Context& context) {
+  Stage stage = context.stage("write");
+  const auto bytes = encode_ecosystem(eco, options.compress ? Encoding::zstd : Encoding::raw);
+  if (!bytes) return std::unexpected(bytes.error());
+  stage.items(bytes->size(), "bytes");
+  return context.write(options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+}
+
+Result<void> make(const Options& options, Context& context) {
+  if (auto possible = check_outputs(options, context); !possible) return possible;
   auto scene = read_page(options, context);
   if (!scene) return std::unexpected(scene.error());
   if (auto added = read_instances(options, *scene, context); !added) return added;
@@ -142,17 +162,14 @@ Result<void> make(const Options& options, Context& context) {
   auto told = provenance(options, *scene, built->sources);
   if (!told) return std::unexpected(told.error());
   built->eco.provenance = std::move(*told);
+  if (auto done = write_eco(built->eco, options, context); !done) return done;
   for (const fs::path& file : options.exports)
     if (auto done =
             export_ecosystem(built->eco, options.output.parent_path(), file,
                              options.glb_nodes ? Instancing::nodes : Instancing::extension, map, context);
         !done)
       return done;
-  Stage stage = context.stage("write");
-  const auto bytes = encode_ecosystem(built->eco, options.compress ? Encoding::zstd : Encoding::raw);
-  if (!bytes) return std::unexpected(bytes.error());
-  stage.items(bytes->size(), "bytes");
-  return context.write(options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  return {};
 }
 
 }  // namespace

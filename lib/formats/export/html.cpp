@@ -71,7 +71,10 @@ void add_key_figures(std::string& out, const Report& report) {
   if (in > 0) add_figure(out, report.inputs.size() > 1 ? "inputs" : "input", show_bytes(in));
   if (written > 0) {
     std::string note;
-    if (in > 0)
+    // Several outputs are no share of what they were made of, and an ecosystem names its trees.
+    const bool is_share = report.outputs.size() == 1 &&
+                          std::filesystem::path(report.outputs.front().path).extension() != ".eco";
+    if (in > 0 && is_share)
       note = show_number(100.0 * static_cast<double>(written) / static_cast<double>(in)) + " % of the input";
     add_figure(out, report.outputs.size() > 1 ? "outputs" : "output", show_bytes(written), note);
   }

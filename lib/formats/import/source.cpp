@@ -101,7 +101,7 @@ Result<Bytes> open_bytes(const std::filesystem::path& path) {
   if (file.get() < 0) return io_error(name, errno);
   struct stat info {};
   if (::fstat(file.get(), &info) != 0) return io_error(name, errno);
-  if (S_ISDIR(info.st_mode)) return fail(Fault::io, name, "is a folder", "name a mesh file in it");
+  if (S_ISDIR(info.st_mode)) return fail(Fault::io, name, "is a folder", "name a file in it");
   if (S_ISREG(info.st_mode)) return map_file(file.get(), static_cast<std::size_t>(info.st_size), name);
   return read_stream(file.get(), name);
 }
