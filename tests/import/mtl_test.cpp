@@ -38,6 +38,12 @@ TEST(Mtl, TransparencyAndHaloAndASingleGreyNumberAreKnown) {
   EXPECT_EQ(with_library("newmtl leaf\nKd 0.5\n").mesh.materials[0].diffuse, (Float3{0.5f, 0.5f, 0.5f}));
 }
 
+TEST(Mtl, MaterialsThatFacesNameAndNoLibraryDefinesAreTold) {
+  EXPECT_TRUE(with_library("newmtl leaf\n").undefined_materials.empty());
+  EXPECT_EQ(with_library("newmtl bark\nKd 1 0 0\n").undefined_materials, (std::vector<std::uint32_t>{1}));
+  EXPECT_EQ(with_library("Kd 1 0 0\n").undefined_materials, (std::vector<std::uint32_t>{0}));
+}
+
 TEST(Mtl, TheColourMapIsTheTextureWhateverItsOptions) {
   for (const char* options :
        {"", "-clamp on ", "-s 2 2 1 -o 0.5 0 -mm 0 1 ", "-blendu off -bm 0.5 -texres 512 ", "-o 1 "}) {

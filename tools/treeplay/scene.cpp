@@ -1,5 +1,6 @@
 #include "tools/treeplay/scene.h"
 
+#include "lib/formats/default_look.h"
 #include "lib/formats/import/import.h"
 #include "lib/formats/tree_file/tree_file.h"
 #include "tools/treeplay/eco_scene.h"
@@ -63,8 +64,8 @@ Material material_of(const Scene& scene, const DrawRange& range) {
   if (range.material < scene.materials.size()) return scene.materials[range.material];
   Material m;
   m.double_sided = true;
-  if (range.part == DrawPart::trunk) m.diffuse = {0.23f, 0.165f, 0.115f};
-  if (range.part == DrawPart::leaves) m.diffuse = {0.13f, 0.235f, 0.05f};
+  if (range.part == DrawPart::trunk) m.diffuse = k_wood_colour;
+  if (range.part == DrawPart::leaves) m.diffuse = k_leaf_colour;
   if (range.part == DrawPart::ground) m.diffuse = {0.098f, 0.122f, 0.044f};
   if (range.part == DrawPart::mesh) m.diffuse = {0.42f, 0.41f, 0.39f};
   return m;

@@ -74,7 +74,8 @@ Result<Analysis> analyse(Input& input, const Options& options, TreeKind kind, co
 
   Stage stage = context.stage("assemble");
   stage.items(input.mesh.triangles.size(), "triangles");
-  a.assembled = assemble({input.mesh, a.trunk, a.hierarchy, a.leaves.geometry, a.leaves.groups, origin},
+  a.assembled = assemble({input.mesh, a.trunk, a.hierarchy, a.leaves.geometry, a.leaves.groups, origin,
+                          input.undefined_materials},
                          {.kind = kind, .leaf_order = options.leaf_order});
   if (a.assembled.mixed_materials > 0) {
     context.warn(fmt::format("{}: {} leaves use several materials; each is stored with its first", input.name,

@@ -2,6 +2,7 @@
 
 #include "lib/analysis/surface/spatial_order.h"
 #include "lib/formats/import/import.h"
+#include "lib/formats/import/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -122,6 +123,19 @@ Result<void> check_size(const Mesh& mesh, const std::string& name) {
   return {};
 }
 
+// `import` is to be put behind what `input` holds already.
+void note_undefined(const Import& import, const fs::path& path, Input& input, Context& context) {
+  if (import.undefined_materials.empty()) return;
+  const auto before = static_cast<std::uint32_t>(input.mesh.materials.size());
+  for (const std::uint32_t m : import.undefined_materials) input.undefined_materials.push_back(before + m);
+  context.warn(
+      fmt::format("{}: {} of its {} materials {} defined nowhere ({}{}); wood becomes brown, leaves green",
+                  path.string(), import.undefined_materials.size(), import.mesh.materials.size(),
+                  import.undefined_materials.size() == 1 ? "is" : "are",
+                  in_quotes(import.mesh.materials[import.undefined_materials.front()].name),
+                  import.undefined_materials.size() > 1 ? ", ..." : ""));
+}
+
 }  // namespace
 
 Result<Input> read_input(const Options& options, Context& context) {
@@ -138,6 +152,7 @@ Result<Input> read_input(const Options& options, Context& context) {
     for (std::size_t i = 0; i < import->files.size(); ++i) context.read(import->files[i], i == 0);
     for (const std::string& warning : import->warnings) context.warn(path.string() + ": " + warning);
     relocate_textures(import->mesh, path, options.output);
+    note_undefined(*import, path, input, context);
     if (input.name.empty()) {
       input.name = path.string();
       input.format = format_name(import->format);

@@ -13,7 +13,8 @@
 namespace copse::treeprep {
 
 struct Input {
-  Mesh mesh;  // oriented, scaled; at least one triangle
+  std::vector<std::uint32_t> undefined_materials;  // of the mesh's: named, but defined in no file; ascending
+  Mesh mesh;                                       // oriented, scaled; at least one triangle
   // Where each triangle was in the file; empty where they are in its order. Those that lay scattered are
   // brought together, but with --strict.
   std::vector<std::uint32_t> file_order;

@@ -1,5 +1,7 @@
 #include "lib/analysis/tree/assemble.h"
 
+#include "lib/analysis/tree/default_materials.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -64,6 +66,7 @@ Assembled assemble(const AssembleInput& in, const AssembleOptions& options) {
   tree.leaves.groups = in.groups.groups;
   tree.leaves.order = in.groups.order;
   tree.leaves.group_hierarchy = in.groups.hierarchy;
+  give_default_materials(in.undefined_materials, tree);
   return out;
 }
 

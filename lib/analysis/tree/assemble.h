@@ -6,6 +6,7 @@
 #include "lib/formats/tree/tree.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace copse {
@@ -31,6 +32,8 @@ struct AssembleInput {
   const LeafGeometry& leaves;
   const TreeGroups& groups;
   Double3 origin;
+  // Of the mesh's materials: named by it, but defined nowhere.
+  std::span<const std::uint32_t> undefined_materials{};
 };
 
 struct Assembled {
@@ -43,8 +46,8 @@ struct Assembled {
 // to the bit.
 Double3 choose_origin(const DoubleBox& bounds);
 
-// Materials are copied as they are in the mesh; textures too. The cost is that of make_trunk_arrays and
-// make_leaf_arrays.
+// Materials are copied as they are in the mesh, textures too; what has none, or one that nothing defines,
+// gets a default (default_materials.h). The cost is that of make_trunk_arrays and make_leaf_arrays.
 Assembled assemble(const AssembleInput& input, const AssembleOptions& options);
 
 }  // namespace copse

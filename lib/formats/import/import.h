@@ -44,8 +44,9 @@ struct SourceGroup {
 
 struct Import {
   Mesh mesh;
-  std::vector<SourceGroup> groups;      // empty where the source groups nothing
-  std::vector<std::uint32_t> group_of;  // one a triangle, k_none: in no group; empty as `groups`
+  std::vector<std::uint32_t> undefined_materials;  // faces name them, nothing says how they look; ascending
+  std::vector<SourceGroup> groups;                 // empty where the source groups nothing
+  std::vector<std::uint32_t> group_of;             // one a triangle, k_none: in no group; empty as `groups`
   MeshFormat format = MeshFormat::unknown;
   ImportCounts counts;
   std::vector<std::string> warnings;

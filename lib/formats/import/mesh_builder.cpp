@@ -207,6 +207,7 @@ Result<Import> MeshBuilder::finish(MeshFormat format) {
   close_group(k_none);
   Import import;
   import.mesh = std::move(mesh);
+  import.undefined_materials = std::move(undefined_materials);
   import.groups = std::move(groups_);
   import.group_of = std::move(group_of_);
   import.format = format;

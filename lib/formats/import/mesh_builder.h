@@ -46,8 +46,10 @@ class MeshBuilder {
   // `bytes` is the size of the (inflated) file.
   MeshBuilder(std::string file, std::uint64_t bytes, bool strict);
 
-  // Readers fill positions, normals, texcoords, materials and textures themselves.
+  // Readers fill positions, normals, texcoords, materials (and which are not defined) and textures
+  // themselves.
   Mesh mesh;
+  std::vector<std::uint32_t> undefined_materials;
   ImportCounts counts;
   Notes notes;
   std::vector<std::filesystem::path> files;

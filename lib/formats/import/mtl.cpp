@@ -65,7 +65,7 @@ class MtlReader {
       const std::string_view word = next_word(p, end);
       if (word == "newmtl") {
         close();
-        current_ = table_.find_or_add(to_utf8(rest_of_line(p, end)));
+        current_ = table_.define(to_utf8(rest_of_line(p, end)));
         material() = Material{.name = material().name};
         alpha_map_.clear();
       } else if (current_ != k_none) {
@@ -159,8 +159,25 @@ class MtlReader {
 
 std::uint32_t MaterialTable::find_or_add(const std::string& name) {
   const auto [it, is_new] = by_name_.try_emplace(name, static_cast<std::uint32_t>(mesh_.materials.size()));
-  if (is_new) mesh_.materials.push_back({.name = name});
+  if (is_new) {
+    mesh_.materials.push_back({.name = name});
+    defined_.push_back(false);
+  }
   return it->second;
+}
+
+std::uint32_t MaterialTable::define(const std::string& name) {
+  const std::uint32_t material = find_or_add(name);
+  defined_[material] = true;
+  return material;
+}
+
+std::vector<std::uint32_t> MaterialTable::undefined() const {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t m = 0; m < defined_.size(); ++m) {
+    if (!defined_[m]) out.push_back(m);
+  }
+  return out;
 }
 
 std::uint32_t MaterialTable::add_texture(const std::string& uri) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace copse {
 
@@ -15,10 +16,15 @@ class MaterialTable {
  public:
   explicit MaterialTable(Mesh& mesh) : mesh_(mesh) {}
   std::uint32_t find_or_add(const std::string& name);
+  // The same, of a material that a library says the look of.
+  std::uint32_t define(const std::string& name);
   std::uint32_t add_texture(const std::string& uri);
+  // Mentioned, but never defined; ascending.
+  std::vector<std::uint32_t> undefined() const;
 
  private:
   Mesh& mesh_;
+  std::vector<bool> defined_;  // one a material
   std::map<std::string, std::uint32_t> by_name_, texture_by_uri_;
 };
 

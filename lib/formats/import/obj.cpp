@@ -73,7 +73,11 @@ class ObjReader {
   ObjReader(std::string_view text, const Companions& companions, MeshBuilder& builder)
       : text_(text), companions_(companions), builder_(builder), mesh_(builder.mesh), table_(builder.mesh) {}
 
-  bool read() { return read_vertices() && read_faces(); }
+  bool read() {
+    const bool good = read_vertices() && read_faces();
+    builder_.undefined_materials = table_.undefined();
+    return good;
+  }
 
  private:
   // visit(statement, the rest of its line, its end) for every line, until one is not good.
