@@ -30,8 +30,22 @@ TEST(SegmentTree, MeasuresADistanceAndTheRadiusThere) {
   EXPECT_DOUBLE_EQ(nearness(std::vector<Segment>{{{1, 1, 1}, {1, 1, 1}, 1, 1, 0}}, 0, {1, 1, 3}).distance, 2);
 }
 
-TEST(SegmentTree, FindsTheNearestOfEachLimbAsALookAtAllWould) {
-  const SegmentTree tree(random_segments(500, 40, 3));
+// Straws: every axis goes through most of the heap.
+std::vector<Segment> heap_of_straws(std::size_t count, std::uint32_t limbs, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto draw = [&](double high) { return high * random() / 4294967296.0; };
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < count; ++i) {
+    segments.push_back({{draw(10), draw(10), draw(10)},
+                        {draw(10), draw(10), draw(10)},
+                        draw(0.3),
+                        draw(0.3),
+                        static_cast<std::uint32_t>(random() % limbs)});
+  }
+  return segments;
+}
+
+void expect_the_nearest_of_each_limb(const SegmentTree& tree) {
   std::vector<Nearness> found;
   std::mt19937 random(7);
   for (int query = 0; query < 200; ++query) {
@@ -59,8 +73,12 @@ TEST(SegmentTree, FindsTheNearestOfEachLimbAsALookAtAllWould) {
   }
 }
 
-TEST(SegmentTree, FindsTheNearestSurfaceWithinReach) {
-  const SegmentTree tree(random_segments(300, 300, 9));
+TEST(SegmentTree, FindsTheNearestOfEachLimbAsALookAtAllWould) {
+  expect_the_nearest_of_each_limb(SegmentTree(random_segments(500, 40, 3)));
+  expect_the_nearest_of_each_limb(SegmentTree(heap_of_straws(800, 40, 3)));
+}
+
+void expect_the_nearest_surface(const SegmentTree& tree) {
   std::mt19937 random(1);
   for (int query = 0; query < 200; ++query) {
     const Double3 p{random() % 1000 * 0.01, random() % 1000 * 0.01, random() % 1000 * 0.01};
@@ -79,6 +97,11 @@ TEST(SegmentTree, FindsTheNearestSurfaceWithinReach) {
   }
 }
 
+TEST(SegmentTree, FindsTheNearestSurfaceWithinReach) {
+  expect_the_nearest_surface(SegmentTree(random_segments(300, 300, 9)));
+  expect_the_nearest_surface(SegmentTree(heap_of_straws(600, 300, 9)));
+}
+
 TEST(SegmentTree, OfNothingFindsNothingAndManyInOnePlaceAreNoTrap) {
   std::vector<Nearness> found{{}};
   const SegmentTree none({});
@@ -87,7 +110,7 @@ TEST(SegmentTree, OfNothingFindsNothingAndManyInOnePlaceAreNoTrap) {
   std::vector<Segment> heap;
   for (std::uint32_t i = 0; i < 50000; ++i) heap.push_back({{0, 0, 0}, {0, 1, 0}, 1, 1, i});
   const SegmentTree tree(std::move(heap));
-  for (int query = 0; query < 1000; ++query) tree.near({0, 0.5, 0}, 1, 1, 0xffffffffu, 16, found);
+  for (int query = 0; query < 100; ++query) tree.near({0, 0.5, 0}, 1, 1, 0xffffffffu, 16, found);
   ASSERT_EQ(found.size(), 16u);
 }
 

@@ -9,6 +9,10 @@ namespace copse {
 namespace {
 
 constexpr std::uint32_t k_leaf_size = 4;
+// As many boxes may lie over one another, in the mean, before axes are cut; into so many pieces at most.
+constexpr double k_overlap = 4;
+constexpr std::uint32_t k_most_pieces = 32;
+constexpr double k_most_pieces_in_all = 4e6;
 
 double distance_to(const DoubleBox& box, const Double3& p) {
   const auto outside = [](double low, double high, double x) { return std::max({low - x, x - high, 0.0}); };
@@ -73,8 +77,43 @@ SegmentTree::SegmentTree(std::vector<Segment> segments) : segments_(std::move(se
   build();
 }
 
+// How often the boxes of the axes cover the box of all, cut into p pieces each, goes down with p squared.
+void SegmentTree::choose_pieces() {
+  DoubleBox all;
+  for (const Segment& s : segments_) all.grow(s.a), all.grow(s.b);
+  const Double3 size = all.extent();
+  if (!(std::min({size.x, size.y, size.z}) > 0)) return;  // straws in a plane: pieces lie as thick
+  double overlap = 0;
+  for (const Segment& s : segments_) {
+    const Double3 e = s.b - s.a;
+    overlap += std::abs(e.x / size.x) * std::abs(e.y / size.y) * std::abs(e.z / size.z);
+  }
+  if (!(overlap > k_overlap)) return;  // a share is no number where the box is too large for one
+  const double most = std::min<double>(
+      k_most_pieces, std::floor(k_most_pieces_in_all / static_cast<double>(segments_.size())));
+  pieces_ =
+      static_cast<std::uint32_t>(std::max(1.0, std::min(most, std::ceil(std::sqrt(overlap / k_overlap)))));
+}
+
+DoubleBox SegmentTree::box_of(std::uint32_t piece) const {
+  const Segment& s = segments_[piece / pieces_];
+  const double from = static_cast<double>(piece % pieces_) / pieces_,
+               to = static_cast<double>(piece % pieces_ + 1) / pieces_;
+  DoubleBox box;
+  box.grow(s.a * (1 - from) + s.b * from);
+  box.grow(s.a * (1 - to) + s.b * to);
+  return box;
+}
+
+Double3 SegmentTree::middle_of(std::uint32_t piece) const {
+  const Segment& s = segments_[piece / pieces_];
+  const double t = (piece % pieces_ + 0.5) / pieces_;
+  return s.a * (1 - t) + s.b * t;
+}
+
 void SegmentTree::build() {
-  order_.resize(segments_.size());
+  choose_pieces();
+  order_.resize(segments_.size() * pieces_);
   for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
   if (order_.empty()) return;
   struct Range {
@@ -89,10 +128,10 @@ void SegmentTree::build() {
     if (range.parent != id) nodes_[range.parent].first = id;
     DoubleBox middles;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      const Segment& s = segments_[order_[i]];
-      node.box.grow(s.a), node.box.grow(s.b);
+      const Segment& s = segments_[order_[i] / pieces_];
+      node.box.grow(box_of(order_[i]));
       node.radius = std::max({node.radius, s.radius_a, s.radius_b});
-      middles.grow(s.a * 0.5 + s.b * 0.5);
+      middles.grow(middle_of(order_[i]));
     }
     if (range.end - range.begin <= k_leaf_size) {
       node.first = range.begin;
@@ -101,9 +140,7 @@ void SegmentTree::build() {
     }
     const int axis = longest_axis(middles);
     const std::uint32_t middle = range.begin + (range.end - range.begin) / 2;
-    const auto at = [&](std::uint32_t s) {
-      return std::pair(segments_[s].a[axis] * 0.5 + segments_[s].b[axis] * 0.5, s);
-    };
+    const auto at = [&](std::uint32_t piece) { return std::pair(middle_of(piece)[axis], piece); };
     std::nth_element(order_.begin() + range.begin, order_.begin() + middle, order_.begin() + range.end,
                      [&](std::uint32_t x, std::uint32_t y) { return at(x) < at(y); });
     todo.push_back({middle, range.end, id});
@@ -158,9 +195,10 @@ void SegmentTree::near(const Double3& point, double reach, double least_radius, 
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Segment& s = segments_[order_[i]];
+      const std::uint32_t segment = order_[i] / pieces_;
+      const Segment& s = segments_[segment];
       if (s.limb == except || is_too_far(bounds.from_axis(s), std::max(s.radius_a, s.radius_b))) continue;
-      const Nearness n = nearness(segments_, order_[i], point);
+      const Nearness n = nearness(segments_, segment, point);
       if (n.gap() <= reach) insert(n);
     }
   }
@@ -184,8 +222,9 @@ bool SegmentTree::nearest(const Double3& point, double reach, std::uint32_t exce
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (segments_[order_[i]].limb == except) continue;
-      const Nearness n = nearness(segments_, order_[i], point);
+      const std::uint32_t segment = order_[i] / pieces_;
+      if (segments_[segment].limb == except) continue;
+      const Nearness n = nearness(segments_, segment, point);
       if (n.gap() > reach) continue;
       if (!any || std::pair(n.gap(), n.segment) < std::pair(found.gap(), found.segment))
         found = n, any = true;

@@ -26,7 +26,9 @@ struct Nearness {
 };
 Nearness nearness(std::span<const Segment> segments, std::uint32_t segment, const Double3& point);
 
-// A bounding volume hierarchy over the axes. Building: O(n log n); a query: O(log n) and what it finds.
+// A bounding volume hierarchy over the axes. Building: O(n log n); a query: O(log n) and what it finds. Where
+// axes lie across one another like straws in a heap, boxes over whole axes would tell nothing: there it is
+// one over pieces of them.
 class SegmentTree {
  public:
   explicit SegmentTree(std::vector<Segment> segments);
@@ -46,15 +48,19 @@ class SegmentTree {
 
  private:
   struct Node {
-    DoubleBox box;            // of the axes
+    DoubleBox box;            // of the axes, or their pieces
     double radius = 0;        // the largest
     std::uint32_t first = 0;  // leaf: first of order_; inner: the right child (the left one follows the node)
-    std::uint32_t count = 0;  // leaf: segments; inner: 0
+    std::uint32_t count = 0;  // leaf: pieces; inner: 0
   };
   void build();
+  void choose_pieces();
+  DoubleBox box_of(std::uint32_t piece) const;
+  Double3 middle_of(std::uint32_t piece) const;
 
   std::vector<Segment> segments_;
-  std::vector<std::uint32_t> order_;
+  std::uint32_t pieces_ = 1;          // of each axis, equally long
+  std::vector<std::uint32_t> order_;  // pieces: piece p is of segment p / pieces_
   std::vector<Node> nodes_;
 };
 
