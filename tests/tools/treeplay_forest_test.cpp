@@ -374,8 +374,10 @@ TEST_F(TreeplayForest, TheGroundGoesOnWhereTheTerrainEnds) {
   }
 }
 
-TEST_F(TreeplayForest, WhatItCannotShowItSays) {
-  for (const Strings& wish : {Strings{"--show", "skeleton"}, {"--level", "2"}, {"--ratio", "0.5"}}) {
+TEST_F(TreeplayForest, WhatItCannotShowItSaysBeforeItReadsATree) {
+  std::filesystem::remove(file("rich.stree"));
+  for (const Strings& wish :
+       {Strings{"--show", "skeleton"}, {"--level", "2"}, {"--ratio", "0.5"}, {"--lod", "foliage"}}) {
     const Outcome o = play(wish);
     EXPECT_EQ(o.status, 2);
     EXPECT_NE(o.err.find("is an ecosystem"), std::string::npos) << o.err;
@@ -385,6 +387,7 @@ TEST_F(TreeplayForest, WhatItCannotShowItSays) {
   EXPECT_EQ(o.status, 2);
   EXPECT_NE(o.err.find("block_trees"), std::string::npos) << o.err;
   EXPECT_EQ(play({"--above-ground"}).status, 2);
+  EXPECT_EQ(play({}).status, 3);
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ std::vector<LodLevel> levels_by_distance(const LodSpectra& spectra) {
 
 class EcosystemReader {
  public:
-  EcosystemReader(Scene& scene, const fs::path& path, bool levels, Context& context)
-      : scene_(scene), path_(path), with_levels_(levels), context_(context) {}
+  EcosystemReader(Scene& scene, const fs::path& path, const Wanted& wanted, Context& context)
+      : scene_(scene), path_(path), wanted_(wanted), context_(context) {}
 
   Result<void> read() {
     if (auto done = open(); !done) return done;
@@ -74,6 +74,9 @@ class EcosystemReader {
     if (!file) return std::unexpected(file.error());
     auto eco = file->load(Instances::on_demand);
     if (!eco) return std::unexpected(eco.error());
+    if (!has_hierarchy(*eco, wanted_.cull))
+      return fail(Fault::usage, path_.string(), "has no such hierarchy over its blocks",
+                  "make it with \"block_trees\": [\"kd\", \"r\"] in its page, or cull by its box hierarchy");
     context_.read(path_, true);
     eco_ = &scene_.eco.emplace(std::move(*eco));
     scene_.geometry.origin = eco_->origin;
@@ -125,7 +128,7 @@ class EcosystemReader {
     take_textures(std::move(tree->textures), scene_.materials, first_material,
                   type.packed.empty() ? path : path_);
     std::shared_ptr<const TreeLevels> levels;
-    if (with_levels_) {
+    if (wanted_.levels) {
       auto loaded = TreeLevels::load(*file, *tree);
       if (!loaded) return std::unexpected(loaded.error());
       levels = std::move(*loaded);
@@ -147,7 +150,7 @@ class EcosystemReader {
     }
     const FloatBox box = mesh_box(scene_.geometry, part.levels[0]);
     part.height = std::max({box.extent().x, box.extent().y, box.extent().z});
-    if (with_levels_) add_stochastic_levels(part);
+    if (wanted_.levels) add_stochastic_levels(part);
     if (levels && levels->impostor())
       part.impostor = std::shared_ptr<const TreeImpostor>(levels, &*levels->impostor());
     scene_.forest.types.push_back(std::move(part));
@@ -177,7 +180,7 @@ class EcosystemReader {
 
   Scene& scene_;
   fs::path path_;
-  bool with_levels_ = false;
+  Wanted wanted_;
   Context& context_;
   const Ecosystem* eco_ = nullptr;
   std::map<std::pair<std::string, std::uint64_t>, std::size_t> known_;  // by name and hash; the first type
@@ -185,8 +188,8 @@ class EcosystemReader {
 
 }  // namespace
 
-Result<void> take_ecosystem(Scene& scene, const fs::path& path, bool levels, Context& context) {
-  return EcosystemReader(scene, path, levels, context).read();
+Result<void> take_ecosystem(Scene& scene, const fs::path& path, const Wanted& wanted, Context& context) {
+  return EcosystemReader(scene, path, wanted, context).read();
 }
 
 }  // namespace copse::treeplay

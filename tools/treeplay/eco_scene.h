@@ -5,8 +5,9 @@
 
 namespace copse::treeplay {
 
-// Reads the ecosystem and the trees that it names or holds, with `levels` their levels of detail as well.
+// Reads the ecosystem and the trees that it names or holds, if so wanted with their levels of detail.
 // Precondition: an .eco file.
-Result<void> take_ecosystem(Scene& scene, const std::filesystem::path& path, bool levels, Context& context);
+Result<void> take_ecosystem(Scene& scene, const std::filesystem::path& path, const Wanted& wanted,
+                            Context& context);
 
 }  // namespace copse::treeplay

@@ -1,5 +1,6 @@
 #include "tools/treeplay/play.h"
 
+#include "lib/formats/ecosystem/ecosystem_file.h"
 #include "tools/treeplay/framing.h"
 #include "tools/treeplay/headless.h"
 #include "tools/treeplay/scene.h"
@@ -163,8 +164,8 @@ namespace {
 
 // Trees of an ecosystem go by distance, each by the levels that its file has; --level 0 is full detail.
 Wanted wanted_of(const Options& options, bool window) {
-  Wanted wanted;
-  if (options.input.extension() == ".eco") {
+  Wanted wanted{.cull = options.cull};
+  if (is_ecosystem(options.input)) {
     wanted.levels = !options.detail.level;
     return wanted;
   }
@@ -178,29 +179,38 @@ Wanted wanted_of(const Options& options, bool window) {
 Result<void> check_detail(const Scene& scene, const Options& options) {
   const bool lines_points = options.detail.lod == Lod::lines_points;
   const bool foliage = options.detail.lod == Lod::foliage;
-  if (scene.eco && (lines_points || foliage)) {
-    return fail(Fault::usage, options.input.string(),
-                "is an ecosystem, whose trees take levels by distance alone",
-                "leave --lod out, or name one of its trees");
-  }
-  if ((lines_points && !scene.lines_points) || (foliage && !scene.foliage)) {
-    return refuse(options.input.string(), "is no tree, and has no such detail",
-                  "make a tree of it with treeprep");
-  }
-  if (!scene.eco || !options.detail.names_one() || options.detail.level == std::uint64_t{0}) return {};
-  return fail(Fault::usage, options.input.string(),
-              "is an ecosystem, whose trees take their levels by distance",
-              "leave the level out, or draw all in full detail by --level 0");
+  if ((!lines_points || scene.lines_points) && (!foliage || scene.foliage)) return {};
+  return refuse(options.input.string(), "is no tree, and has no such detail",
+                "make a tree of it with treeprep");
 }
 
-Result<void> check_culling(const Scene& scene, const Options& options) {
-  if (options.cull == BlockHierarchy::boxes) return {};
-  if (!scene.eco)
-    return fail(Fault::usage, options.input.string(),
-                "is no ecosystem, so there is nothing to cull by --cull", "leave --cull out");
-  if (has_hierarchy(*scene.eco, options.cull)) return {};
-  return fail(Fault::usage, options.input.string(), "has no such hierarchy over its blocks",
-              "make it with \"block_trees\": [\"kd\", \"r\"] in its page, or cull by its box hierarchy");
+Result<void> check_show(const Scene& scene, const Options& options, const Look& look) {
+  if (look.show == Show::surface || scene.skeleton) return {};
+  return scene.is_tree ? fail(Fault::usage, options.input.string(), "has no hierarchy, lines or leaf groups",
+                              "prepare it without leaving them out, or leave --show out")
+                       : fail(Fault::usage, options.input.string(), "is a mesh and has no hierarchy to show",
+                              "make a tree of it with treeprep, or leave --show out");
+}
+
+// What can be asked of ecosystems alone, or of all else alone: told when no more than the header is read.
+Result<void> check_kind(const Options& options, const Look& look) {
+  const std::string name = options.input.string();
+  if (!is_ecosystem(options.input)) {
+    if (options.cull == BlockHierarchy::boxes) return {};
+    return fail(Fault::usage, name, "is no ecosystem, so there is nothing to cull by --cull",
+                "leave --cull out");
+  }
+  if (const auto file = EcosystemFile::open(options.input); !file) return std::unexpected(file.error());
+  if (options.detail.lod == Lod::lines_points || options.detail.lod == Lod::foliage)
+    return fail(Fault::usage, name, "is an ecosystem, whose trees take levels by distance alone",
+                "leave --lod out, or name one of its trees");
+  if (options.detail.names_one() && options.detail.level != std::uint64_t{0})
+    return fail(Fault::usage, name, "is an ecosystem, whose trees take their levels by distance",
+                "leave the level out, or draw all in full detail by --level 0");
+  if (look.show != Show::surface)
+    return fail(Fault::usage, name, "is an ecosystem, of which surfaces alone are drawn",
+                "leave --show out, or name one of its trees");
+  return {};
 }
 
 // What ecogen left trees out for along a camera's path: such an option; none when it left none out.
@@ -258,24 +268,14 @@ Result<void> run(const Options& options, Context& context) {
     return fail(Fault::usage, "", "there is no display to open a window on",
                 "write pictures with --frames NAME.png, or only measure with --headless");
   }
+  if (auto fits = check_kind(options, plan->look); !fits) return fits;
   plan->settings.lights = window || plan->look.lit;
   const auto scene = load_scene(options.input, plan->settings.lights, wanted_of(options, window), context);
   if (!scene) return std::unexpected(scene.error());
   if (auto fits = check_detail(*scene, options); !fits) return fits;
   auto choice = LevelChoice::make(scene->levels, scene->eco ? DetailWish{} : options.detail, options.input);
   if (!choice) return std::unexpected(choice.error());
-  if (plan->look.show != Show::surface && scene->eco) {
-    return fail(Fault::usage, options.input.string(), "is an ecosystem, of which surfaces alone are drawn",
-                "leave --show out, or name one of its trees");
-  }
-  if (plan->look.show != Show::surface && !scene->skeleton) {
-    return scene->is_tree
-               ? fail(Fault::usage, options.input.string(), "has no hierarchy, lines or leaf groups",
-                      "prepare it without leaving them out, or leave --show out")
-               : fail(Fault::usage, options.input.string(), "is a mesh and has no hierarchy to show",
-                      "make a tree of it with treeprep, or leave --show out");
-  }
-  if (auto culls = check_culling(*scene, options); !culls) return culls;
+  if (auto fits = check_show(*scene, options, plan->look); !fits) return fits;
   if (auto raised = raise_camera(*scene, options, *plan); !raised) return raised;
   warn_of_low_sun(*scene, *plan, context);
   warn_of_wide_frames(*scene, *plan, context);

@@ -182,7 +182,7 @@ Result<void> take_mesh(Scene& scene, const fs::path& path, Context& context) {
 }
 
 Result<void> take(Scene& scene, const fs::path& path, const Wanted& wanted, Context& context) {
-  if (extension_of(path) == ".eco") return take_ecosystem(scene, path, wanted.levels, context);
+  if (is_ecosystem(path)) return take_ecosystem(scene, path, wanted, context);
   Stage stage = context.stage("load");
   const auto taken =
       is_tree_file(path) ? take_tree(scene, path, wanted, context) : take_mesh(scene, path, context);
@@ -191,6 +191,10 @@ Result<void> take(Scene& scene, const fs::path& path, const Wanted& wanted, Cont
 }
 
 }  // namespace
+
+bool is_ecosystem(const fs::path& path) {
+  return extension_of(path) == ".eco";
+}
 
 void add_textures(Scene& scene, std::vector<Texture>&& textures, const std::vector<bool>& used,
                   const fs::path& file, Context& context) {

@@ -5,6 +5,7 @@
 #include "lib/formats/import/image.h"
 #include "lib/formats/material.h"
 #include "lib/formats/result.h"
+#include "lib/runtime/block_culling.h"
 #include "lib/runtime/skeleton.h"
 #include "lib/runtime/sky_light.h"
 #include "lib/runtime/tree_geometry.h"
@@ -63,12 +64,16 @@ Material material_of(const Scene& scene, const DrawRange& range);
 void add_textures(Scene& scene, std::vector<Texture>&& textures, const std::vector<bool>& used,
                   const std::filesystem::path& file, Context& context);
 
+bool is_ecosystem(const std::filesystem::path& path);  // by its name
+
 // Reads a .tree, .stree or .eco, or any mesh that treeprep reads. Images that cannot be read are warned about
 // and give way to the material's mean colour. `lights`: whether anything lit will be drawn; if not, `sky` is
 // open.
-// What of a tree is loaded beside its surface; a mesh or an ecosystem has neither.
+// What of a tree is loaded beside its surface; a mesh or an ecosystem has neither. What an ecosystem is
+// culled by: one without it is refused before its trees are read.
 struct Wanted {
   bool levels = false, lines_points = false, foliage = false;
+  BlockHierarchy cull = BlockHierarchy::boxes;
 };
 Result<Scene> load_scene(const std::filesystem::path& path, bool lights, const Wanted& wanted,
                          Context& context);
