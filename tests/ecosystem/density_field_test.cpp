@@ -17,7 +17,7 @@ struct World {
       65, 64, [](double x, double) { return x < 32 ? 0 : x - 32; });  // 45 degrees in the east
   TerrainGround ground{terrain};
   DensityField field(const PlacementRules& rules, std::uint32_t side = 64) const {
-    return make_field(rules, k_area, ground, side, side, Random(1));
+    return make_field(PlacementTest(rules, k_area, ground), side, side, Random(1));
   }
 };
 
@@ -89,7 +89,7 @@ TEST(DensityField, DistanceToNothingIsInfinite) {
 TEST(DensityField, NothingStandsWhereThereIsNoGround) {
   const Terrain half = free_terrain(2, 2, {{0, 0, 0}, {0, 0, 0}, {0, 0, 64}, {64, 0, 64}});
   const TerrainGround ground(half);
-  const DensityField f = make_field({}, k_area, ground, 64, 64, Random(1));
+  const DensityField f = make_field(PlacementTest(PlacementRules{}, k_area, ground), 64, 64, Random(1));
   EXPECT_NEAR(f.total(), 64 * 64 / 2.0, 33);
 }
 
@@ -136,8 +136,8 @@ TEST(DensityField, DistancesAreSharpBetweenPixels) {
   rules.distance_to = &map;
   rules.distance = {2.5, 11.3};
   const PlacementTest test(rules, k_area, world.ground);
-  for (const double x : {10.51, 13.0, 19.29}) EXPECT_TRUE(test.allows(x, 30)) << x;
-  for (const double x : {4.0, 10.49, 19.31, 60.0}) EXPECT_FALSE(test.allows(x, 30)) << x;
+  for (const double x : {10.51, 13.0, 19.29}) EXPECT_TRUE(test.weight(x, 30) > 0) << x;
+  for (const double x : {4.0, 10.49, 19.31, 60.0}) EXPECT_FALSE(test.weight(x, 30) > 0) << x;
   EXPECT_NEAR(world.field(rules, 640).total() / 100, 64 * 8.8, 64 * 0.06);
 }
 

@@ -30,6 +30,18 @@ TEST(HilbertCurve, VisitsEveryCellOnceAndStepsToANeighbour) {
   }
 }
 
+TEST(HilbertCurve, ATileIsTheCellsOfItsPartOfTheCurve) {
+  for (const std::uint32_t bits : {4u, 5u, 7u})
+    for (std::uint64_t tile = 0; tile < std::uint64_t{1} << (2 * bits - 8); ++tile) {
+      const auto cells = hilbert_tile(tile, bits);
+      for (std::uint64_t i = 0; i < 256; ++i) {
+        const GridCell c = hilbert_cell(256 * tile + i, bits);
+        ASSERT_EQ(cells[i].x, c.x);
+        ASSERT_EQ(cells[i].y, c.y);
+      }
+    }
+}
+
 TEST(HilbertCurve, AFinerCurveRefinesACoarserOne) {
   for (std::uint32_t y = 0; y < 64; ++y)
     for (std::uint32_t x = 0; x < 64; ++x)

@@ -35,7 +35,8 @@ struct Wish {
 
 Outcome spread(const Wish& w, Spacing before = {}) {
   const World world;
-  const DensityField field = make_field(w.rules, k_area, world.ground, 128, 128, Random(w.seed));
+  const DensityField field =
+      make_field(PlacementTest(w.rules, k_area, world.ground), 128, 128, Random(w.seed));
   const PlacementTest test(w.rules, k_area, world.ground);
   Outcome out;
   DiscsApart wanted;
@@ -160,7 +161,7 @@ TEST(SpreadApart, WorkIsBoundedWhereNothingFitsAndWhereLittleIsAllowed) {
 TEST(SpreadApart, ProgressGoesFromNothingToAllAndNeverBack) {
   const World world;
   const PlacementRules rules;
-  const DensityField field = make_field(rules, k_area, world.ground, 64, 64, Random(1));
+  const DensityField field = make_field(PlacementTest(rules, k_area, world.ground), 64, 64, Random(1));
   const PlacementTest test(rules, k_area, world.ground);
   double last = 0;
   DiscsApart wanted;

@@ -96,13 +96,13 @@ TEST(Spread, PointsKeepASharpRuleInsideACell) {
   PlacementRules rules;
   rules.forbidden = &forbidden;
   const PlantedArea area{0, 0, 8, 8};
-  const DensityField f = make_field(rules, area, ground, 10, 10, Random(1));
+  const DensityField f = make_field(PlacementTest(rules, area, ground), 10, 10, Random(1));
   const Spreader spreader(f);
   const PlacementTest test(rules, area, ground);
   for (std::uint64_t i = 0; i < 2000; ++i) {
     Random random = Random(2).fork(i);
     const GroundPlace p = spreader.draw(i, 2000, test, random);
-    EXPECT_TRUE(test.allows(p.x, p.z));
+    EXPECT_TRUE(test.weight(p.x, p.z) > 0);
   }
 }
 
@@ -116,7 +116,7 @@ TEST(Spread, MapsFinerThanTheGridArePlantedPixelByPixel) {
     for (std::size_t i = 0; i < map.values.size(); ++i) map.values[i] = value(i % w, i / w);
     const PlacementRules rules{.density = &map};
     const std::uint32_t side = field_side(w, 1, {}, area);
-    const DensityField f = make_field(rules, area, ground, side, side, Random(1));
+    const DensityField f = make_field(PlacementTest(rules, area, ground), side, side, Random(1));
     const Spreader spreader(f);
     const PlacementTest test(rules, area, ground);
     std::vector<double> counts(3);
@@ -142,14 +142,14 @@ TEST(Spread, AThinRuleStacksNoPoints) {
   PlacementRules rules;
   rules.altitude = {16.1, 16.11};
   const PlantedArea area{0, 0, 64, 64};
-  const DensityField f = make_field(rules, area, ground, 64, 64, Random(1));
+  const DensityField f = make_field(PlacementTest(rules, area, ground), 64, 64, Random(1));
   const Spreader spreader(f);
   const PlacementTest test(rules, area, ground);
   std::set<std::pair<double, double>> places;
   for (std::uint64_t i = 0; i < 5000; ++i) {
     Random random = Random(2).fork(i);
     const GroundPlace p = spreader.draw(i, 5000, test, random);
-    EXPECT_TRUE(test.allows(p.x, p.z));
+    EXPECT_TRUE(test.weight(p.x, p.z) > 0);
     places.insert({p.x, p.z});
   }
   EXPECT_EQ(places.size(), 5000u);

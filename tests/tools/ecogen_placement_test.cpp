@@ -141,6 +141,24 @@ TEST_F(Ecogen, AMixWithClustersIsSharedOutByTheClustersThatItIsPlantedBy) {
   }
 }
 
+// However many types share it, a mix is looked at once.
+TEST_F(Ecogen, TheReportTellsAtHowManyPointsAMixWasLookedAt) {
+  const Image image{.width = 64, .height = 64, .rgba = std::vector<std::uint8_t>(4 * 64 * 64, 255)};
+  ASSERT_TRUE(write_image(file("even.png"), image));
+  for (auto& t : page_["types"]) t.erase("count");
+  Json& mix = page_["mixes"][0] =
+      Json::parse(R"({"count": 500, "parts": [{"type": "a", "share": "even.png"}]})");
+  for (const char* types : {"1", "2"}) {
+    if (*types == '2') mix["parts"].push_back({{"type", "b"}, {"share", "even.png"}});
+    ASSERT_EQ(run({"--report", file("r.json")}).status, 0);
+    const Json report = Json::parse(read_text(file("r.json")));
+    Json rows;
+    for (const Json& table : report["tables"])
+      if (table["name"] == "mixes") rows = table["rows"];
+    EXPECT_EQ(rows, Json({{"mixes[0]", types, "500", "128", "16384"}}));
+  }
+}
+
 // By itself the footprint is what the crown reaches when it is turned: one that leans reaches farther.
 TEST_F(Ecogen, TheCrownsReachCountsTurningAndLeaning) {
   page_["types"].erase(1);

@@ -101,6 +101,10 @@ TEST_F(Ecogen, WhatIsNoJsonIsNamedByLineAndColumn) {
   EXPECT_EQ(o.status, 1);
   EXPECT_NE(o.err.find("line 2 column 12"), std::string::npos) << o.err;
   EXPECT_EQ(line_count(o.err), 1u);
+  write_text(file("bad.json"), "{\n \"seed\": -1e999}");
+  const Outcome large = run_process({"ecogen", file("bad.json"), "-o", file("out.eco")});
+  EXPECT_EQ(large.status, 1);
+  EXPECT_NE(large.err.find("line 2 column 10: -1e999 is more than"), std::string::npos) << large.err;
   write_text(file("bad.json"), R"({"types": [], "types": []})");
   EXPECT_NE(run_process({"ecogen", file("bad.json"), "-o", file("out.eco")}).err.find("'types' stands twice"),
             std::string::npos);
@@ -189,6 +193,9 @@ TEST_F(Ecogen, AnUnreadableTextureOfAMaterialThatNothingIsMadeOfIsWarnedOf) {
   EXPECT_EQ(o.status, 0);
   EXPECT_NE(o.err.find("none.png: materials[1].texture: "), std::string::npos) << o.err;
   EXPECT_EQ(line_count(o.err), 1u) << o.err;
+  write_text(file("none.png"), "no picture");
+  ASSERT_EQ(run({"--depfile", file("out.d")}).status, 0);
+  EXPECT_NE(read_text(file("out.d")).find("none.png"), std::string::npos);
 }
 
 TEST_F(Ecogen, TintsGoIntoAGlbAndNowhereElse) {

@@ -2,6 +2,7 @@
 
 #include "lib/analysis/ecosystem/arrange.h"
 #include "lib/analysis/ecosystem/block_trees.h"
+#include "lib/analysis/ecosystem/mix_masses.h"
 #include "lib/analysis/ecosystem/populate.h"
 #include "lib/analysis/ecosystem/spread.h"
 #include "lib/analysis/ecosystem/tilt.h"
@@ -208,9 +209,8 @@ class Builder {
     if (scene_.mixes.empty()) return {};
     Stage stage = context_.stage("mixes");
     const PlantedArea area = area_of(scene_, ground);
-    std::uint64_t parts = 0, done = 0;
-    for (const MixSource& mix : scene_.mixes) parts += mix.parts.size();
-    stage.items(parts, "parts");
+    std::uint64_t types = 0;
+    Table table{"mixes", {"mix", "types", "instances", "cells a side", "points looked at"}, {}};
     for (std::size_t m = 0; m < scene_.mixes.size(); ++m) {
       const MixSource& mix = scene_.mixes[m];
       auto density = inputs_.map(mix.density);
@@ -228,7 +228,7 @@ class Builder {
       for (const MixSource::Part& part : mix.parts)
         side = std::max(side, field_side(largest, mix.count, plans_[part.type].rules.clusters, area));
       const std::vector<ValueMap>& totals = share_totals_.emplace_back(means_by_size(shares));
-      std::vector<double> weights;
+      std::vector<MixPart> parts;
       for (std::size_t i = 0; i < mix.parts.size(); ++i) {
         TypePlan& plan = plans_[mix.parts[i].type];
         PlacementRules& rules = plan.rules;
@@ -236,16 +236,21 @@ class Builder {
         rules.density = *density;
         rules.share_of = shares[i];
         for (const ValueMap& total : totals) rules.share_total.push_back(&total);
-        weights.push_back(
-            field_of(plan, mix.parts[i].type, ground, area, random_.fork(stream_plants)).total());
-        stage.progress(static_cast<double>(++done) / static_cast<double>(parts));
+        parts.push_back({&rules, cluster_random(random_.fork(stream_plants), mix.parts[i].type)});
       }
-      const auto counts = apportion(mix.count, weights);
+      const MixMasses shared = mix_masses(parts, area, ground, side, side);
+      types += parts.size();
+      table.rows.push_back({fmt::format("mixes[{}]", m), std::to_string(parts.size()),
+                            std::to_string(mix.count), std::to_string(side), std::to_string(shared.points)});
+      stage.progress(static_cast<double>(m + 1) / static_cast<double>(scene_.mixes.size()));
+      const auto counts = apportion(mix.count, shared.masses);
       for (std::size_t i = 0; i < counts.size(); ++i) plans_[mix.parts[i].type].count = counts[i];
-      if (mix.count > 0 && *std::max_element(weights.begin(), weights.end()) <= 0)
+      if (mix.count > 0 && *std::max_element(shared.masses.begin(), shared.masses.end()) <= 0)
         return refuse("", fmt::format("mixes[{}]: there is no place that its maps and rules allow", m),
                       "widen them, or set its count to 0");
     }
+    stage.items(types, "types");
+    context_.report().tables.push_back(std::move(table));
     return {};
   }
 

@@ -33,6 +33,16 @@ std::string reason_of(const std::string& what) {
   return reason;
 }
 
+// Of "... number overflow parsing '1e999'".
+std::unexpected<Error> number_too_large(std::string_view text, std::string_view what,
+                                        const std::string& file) {
+  const std::size_t begin = what.find('\'') + 1;  // 0 when there is none
+  const std::string_view number = what.substr(begin, what.find('\'', begin) - begin);
+  return refuse(file,
+                fmt::format("{}: {} is more than a number can be", place_of(text, text.find(number)), number),
+                "keep it within -1.7e308 and 1.7e308");
+}
+
 using Step = std::variant<std::string, std::size_t>;
 
 std::optional<std::vector<Step>> steps_of(std::string_view path) {
@@ -103,6 +113,8 @@ Result<Json> parse_document(std::string_view text, const std::string& file) {
     return refuse(file,
                   fmt::format("{}: {}", place_of(text, e.byte == 0 ? 0 : e.byte - 1), reason_of(e.what())),
                   "mend the JSON");
+  } catch (const nlohmann::json::out_of_range& e) {
+    return number_too_large(text, e.what(), file);
   }
 }
 

@@ -83,6 +83,8 @@ void warn_of_unreadable(const fs::path& texture, const std::string& place, Conte
   if (const auto image = read_image(texture); !image)
     context.warn(fmt::format("{}: {}: {}; it was left out, because nothing is made of its material",
                              texture.string(), place, image.error().what));
+  std::error_code ignored;
+  if (fs::is_regular_file(texture, ignored)) context.read(texture, false);
 }
 
 void drop_textures(bool pack, Built& built, Context& context) {

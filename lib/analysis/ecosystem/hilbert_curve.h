@@ -4,6 +4,7 @@
 // Source: Skilling, "Programming the Hilbert curve" (2004); in the plane it is a table of four orientations.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace copse {
@@ -16,5 +17,8 @@ struct GridCell {
 // cell (x >> 1, y >> 1) on the coarser one is the index >> 2.
 std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t bits);
 GridCell hilbert_cell(std::uint64_t index, std::uint32_t bits);
+
+// Cells 256 * tile to 256 * tile + 255 at once, for going through a whole curve; bits >= 4.
+std::array<GridCell, 256> hilbert_tile(std::uint64_t tile, std::uint32_t bits);
 
 }  // namespace copse

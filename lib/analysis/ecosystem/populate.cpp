@@ -174,11 +174,22 @@ class Planter {
                   "widen its rules, or set its count to 0");
   }
 
+  DensityField field_of(std::size_t t, const PlacementTest& test) const {
+    const TypePlan& plan = types_[t];
+    const PlacementRules& r = plan.rules;
+    std::uint32_t largest = 0;
+    for (const ValueMap* m : {r.density, r.forbidden, r.share_of, r.distance_to})
+      if (m) largest = std::max({largest, m->width, m->height});
+    const std::uint32_t side =
+        plan.field_cells > 0 ? plan.field_cells : field_side(largest, plan.count, r.clusters, area_);
+    return make_field(test, side, side, cluster_random(random_, t));
+  }
+
   Result<void> spread(std::size_t t) {
-    const DensityField field = field_of(types_[t], t, ground_, area_, random_);
+    const PlacementTest test(types_[t].rules, area_, ground_);
+    const DensityField field = field_of(t, test);
     const Spreader spreader(field);
     if (!(spreader.total() > 0)) return nowhere(t);
-    const PlacementTest test(types_[t].rules, area_, ground_);
     const std::uint64_t count = types_[t].count;
     random_ones_[t].resize(count);
     tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, count, 1024), [&](const auto& range) {
@@ -214,10 +225,10 @@ class Planter {
   Result<void> space(std::size_t t, std::size_t number, std::size_t of) {
     const TypePlan& p = types_[t];
     if (p.count == 0) return {};
-    const DensityField field = field_of(p, t, ground_, area_, random_);
+    const PlacementTest test(p.rules, area_, ground_);
+    const DensityField field = field_of(t, test);
     const Spreader spreader(field);
     if (!(spreader.total() > 0)) return nowhere(t);
-    const PlacementTest test(p.rules, area_, ground_);
     DiscsApart wanted{
         .count = p.count,
         .radius = [&](auto i, const auto& at) { return p.spacing * scale_of(t, i, at); },
@@ -280,15 +291,8 @@ class Planter {
 
 }  // namespace
 
-DensityField field_of(const TypePlan& plan, std::size_t type, const TerrainGround& ground,
-                      const PlantedArea& area, const Random& random) {
-  const PlacementRules& r = plan.rules;
-  std::uint32_t largest = 0;
-  for (const ValueMap* m : {r.density, r.forbidden, r.share_of, r.distance_to})
-    if (m) largest = std::max({largest, m->width, m->height});
-  const std::uint32_t side =
-      plan.field_cells > 0 ? plan.field_cells : field_side(largest, plan.count, r.clusters, area);
-  return make_field(r, area, ground, side, side, random.fork(type).fork(stream_clusters));
+Random cluster_random(const Random& random, std::size_t type) {
+  return random.fork(type).fork(stream_clusters);
 }
 
 Result<Population> populate(std::span<const TypePlan> types, const TerrainGround& ground,

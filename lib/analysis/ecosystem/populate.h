@@ -65,10 +65,8 @@ struct Population {
   std::uint64_t cells = 0, displaced = 0, in_random_cells = 0;  // of the jittered cells
 };
 
-// What limits type number `type`, on a grid; `random` as given to populate(), which plants over this very
-// field.
-DensityField field_of(const TypePlan& plan, std::size_t type, const TerrainGround& ground,
-                      const PlantedArea& area, const Random& random);
+// What the clusters of type number `type` are drawn with; `random` as given to populate().
+Random cluster_random(const Random& random, std::size_t type);
 
 // Refused: no ground that the rules allow for a type that is to be planted; spacing that leaves no room for
 // all. `progress` hears from 0 to 1 how far types with spacing are, now and then, from the thread of the

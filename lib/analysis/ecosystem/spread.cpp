@@ -10,18 +10,26 @@
 namespace copse {
 
 Spreader::Spreader(const DensityField& field) : field_(field) {
-  const std::uint32_t bits =
-      static_cast<std::uint32_t>(std::bit_width(std::max(field.columns, field.rows) - 1u));
+  const auto bits = static_cast<std::uint32_t>(std::bit_width(std::max(field.columns, field.rows) - 1u));
+  const auto with_mass = static_cast<std::size_t>(
+      std::count_if(field.weights.begin(), field.weights.end(), [](double w) { return w > 0; }));
+  cells_.reserve(with_mass);
+  cumulative_.reserve(with_mass);
   double sum = 0;
-  for (std::uint64_t i = 0; i < (std::uint64_t{1} << (2 * bits)); ++i) {
-    const GridCell at = hilbert_cell(i, bits);
-    if (at.x >= field.columns || at.y >= field.rows) continue;
+  const auto take = [&](const GridCell& at) {
+    if (at.x >= field.columns || at.y >= field.rows) return;
     const std::uint32_t cell = at.y * field.columns + at.x;
-    if (!(field.weights[cell] > 0)) continue;
+    if (!(field.weights[cell] > 0)) return;
     sum += field.weights[cell];
     cells_.push_back(cell);
     cumulative_.push_back(sum);
-  }
+  };
+  constexpr std::uint32_t k_small = 4;  // too small for tiles
+  if (bits < k_small)
+    for (std::uint64_t i = 0; i < std::uint64_t{1} << (2 * bits); ++i) take(hilbert_cell(i, bits));
+  else
+    for (std::uint64_t t = 0; t < std::uint64_t{1} << (2 * bits - 8); ++t)
+      for (const GridCell& at : hilbert_tile(t, bits)) take(at);
 }
 
 std::uint32_t Spreader::cell_of(std::uint64_t piece, std::uint64_t pieces, Random& random) const {
