@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace copse {
 namespace {
@@ -15,7 +16,8 @@ using Corners = std::array<std::uint32_t, 4>;
 using Attributes = std::array<float, k_attributes>;
 
 constexpr float k_border_weight = 10;  // of a plane across a border or a seam
-constexpr double k_pass_share = 0.4;   // of the vertices that a pass goes through, cheapest first
+constexpr float k_infinity = std::numeric_limits<float>::infinity();
+constexpr double k_pass_share = 0.4;  // of the vertices that a pass goes through, cheapest first
 constexpr double k_few = 0.02;        // a pass that makes fewer of them go is followed by one that tries more
 constexpr float k_pass_slack = 1.5f;  // beyond the cost of the last of them
 
@@ -28,6 +30,13 @@ std::uint32_t next_corner(std::uint32_t c) {
 std::uint32_t previous_corner(std::uint32_t c) {
   return (c & 3) == 0 ? c + 2 : c - 1;
 }
+
+// A corner as the vertex that is there sees it.
+struct Around {
+  std::uint32_t corner = 0;
+  std::uint32_t next = 0, previous = 0;  // the positions at the two other corners
+  std::uint32_t next_node = 0;
+};
 
 struct Candidate {
   std::uint32_t thrown = k_none, kept = k_none;  // positions
@@ -134,25 +143,30 @@ class Collapser {
   }
 
   void place_triangles() {
-    for (const auto& t : mesh_.triangles) {
-      wedges_.push_back({t[0], t[1], t[2], 0});
-      triangles_.push_back({place(t[0]), place(t[1]), place(t[2]), 0});
-      corner_nodes_.push_back({node_of_[t[0]], node_of_[t[1]], node_of_[t[2]], 0});
-    }
+    wedges_.reserve(mesh_.triangles.size());
+    for (const auto& t : mesh_.triangles) wedges_.push_back({t[0], t[1], t[2], 0});
+    triangles_.resize(wedges_.size()), corner_nodes_.resize(wedges_.size());
+    wedge_now_.resize(mesh_.vertices.size()), node_now_.resize(nodes_.size());
+    std::iota(wedge_now_.begin(), wedge_now_.end(), 0);
+    std::iota(node_now_.begin(), node_now_.end(), 0);
     drop_degenerate();
   }
 
   static bool degenerate(const Corners& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+  // What went in a pass is known by wedge and node; the triangles are told at its end, in their order.
   void drop_degenerate() {
     std::size_t n = 0;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      if (degenerate(triangles_[t])) continue;
-      triangles_[n] = triangles_[t], wedges_[n] = wedges_[t], corner_nodes_[n] = corner_nodes_[t], ++n;
+    for (const Corners& t : wedges_) {
+      Corners wedges{}, places{}, nodes{};
+      for (std::size_t i = 0; i < 3; ++i)
+        wedges[i] = wedge_now_[t[i]], places[i] = place(wedges[i]), nodes[i] = node_of_[wedges[i]];
+      if (!degenerate(places)) triangles_[n] = places, corner_nodes_[n] = nodes, wedges_[n] = wedges, ++n;
     }
     triangles_.resize(n), wedges_.resize(n), corner_nodes_.resize(n);
   }
 
-  // The corners at every position, in order.
+  // The corners at every position, in order. In a pass they are kept as they are, but for what the kept end
+  // of a collapse gains: it is not looked at again in the same pass.
   void build_rings() {
     ring_first_.assign(places_.size() + 1, 0);
     for (const Corners& t : triangles_)
@@ -160,15 +174,24 @@ class Collapser {
     for (std::size_t p = 0; p < places_.size(); ++p) ring_first_[p + 1] += ring_first_[p];
     ring_.resize(3 * triangles_.size());
     fill_.assign(ring_first_.begin(), ring_first_.end() - 1);
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      for (std::uint32_t i = 0; i < 3; ++i) ring_[fill_[triangles_[t][i]]++] = 4 * t + i;
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      const Corners &at = triangles_[t], &nodes = corner_nodes_[t];
+      ring_[fill_[at[0]]++] = {4 * t, at[1], at[2], nodes[1]};
+      ring_[fill_[at[1]]++] = {4 * t + 1, at[2], at[0], nodes[2]};
+      ring_[fill_[at[2]]++] = {4 * t + 2, at[0], at[1], nodes[0]};
+    }
   }
-  std::span<const std::uint32_t> ring(std::uint32_t p) const {
+  std::span<const Around> ring(std::uint32_t p) const {
+    return {ring_.data() + ring_first_[p], ring_.data() + ring_first_[p + 1]};
+  }
+  std::span<Around> ring(std::uint32_t p) {
     return {ring_.data() + ring_first_[p], ring_.data() + ring_first_[p + 1]};
   }
   std::uint32_t at(std::uint32_t corner) const { return triangles_[corner >> 2][corner & 3]; }
-  std::uint32_t wedge_at(std::uint32_t corner) const { return wedges_[corner >> 2][corner & 3]; }
-  std::uint32_t node_at(std::uint32_t corner) const { return corner_nodes_[corner >> 2][corner & 3]; }
+  std::uint32_t wedge_at(std::uint32_t corner) const { return wedge_now_[wedges_[corner >> 2][corner & 3]]; }
+  std::uint32_t node_at(std::uint32_t corner) const {
+    return node_now_[corner_nodes_[corner >> 2][corner & 3]];
+  }
 
   // ---- what kind of vertex each is
 
@@ -179,10 +202,10 @@ class Collapser {
       if ((c & 3) == 3) continue;
       const std::uint32_t p = at(c), q = at(next_corner(c));
       std::uint32_t same = 0, back = 0;
-      for (const std::uint32_t d : ring(p)) same += at(next_corner(d)) == q;
-      for (const std::uint32_t d : ring(q)) {
-        if (at(next_corner(d)) != p) continue;
-        opposite_[c] = d, ++back;
+      for (const Around& d : ring(p)) same += d.next == q;
+      for (const Around& d : ring(q)) {
+        if (d.next != p) continue;
+        opposite_[c] = d.corner, ++back;
       }
       if (same > 1 || back > 1) broken_[p] = broken_[q] = 1;
     }
@@ -197,7 +220,7 @@ class Collapser {
   void classify() {
     for (std::uint32_t p = 0; p < places_.size(); ++p) {
       std::uint32_t borders = 0, seams = 0;
-      for (const std::uint32_t c : ring(p)) {
+      for (const auto& [c, next, previous, node] : ring(p)) {
         borders += opposite_[c] == k_none;
         borders += opposite_[previous_corner(c)] == k_none;
         seams += seam(c);
@@ -213,8 +236,8 @@ class Collapser {
     const auto all = ring(p);
     if (all.empty()) return true;
     const auto open =
-        std::find_if(all.begin(), all.end(), [&](std::uint32_t c) { return opposite_[c] == k_none; });
-    const std::uint32_t start = open == all.end() ? all.front() : *open;
+        std::find_if(all.begin(), all.end(), [&](const Around& c) { return opposite_[c.corner] == k_none; });
+    const std::uint32_t start = (open == all.end() ? all.front() : *open).corner;
     std::size_t reached = 1;
     for (std::uint32_t c = opposite_[previous_corner(start)];
          c != k_none && c != start && reached < all.size(); c = opposite_[previous_corner(c)])
@@ -261,61 +284,71 @@ class Collapser {
   void add_gradients(std::uint32_t first, const Float3& origin, const Double3& e0, const Double3& e1,
                      const Double3& n, float area) {
     const std::uint32_t at[3] = {node_at(first), node_at(first + 1), node_at(first + 2)};
-    AttributeQuadric q;
     const Double3 g0 = cross(e1, n), g1 = cross(n, e0);
+    std::array<std::array<float, k_attributes>, 4> gradient;
     for (std::size_t k = 0; k < k_attributes; ++k) {
       const double a0 = nodes_[at[0]].attributes[k], d1 = nodes_[at[1]].attributes[k] - a0,
                    d2 = nodes_[at[2]].attributes[k] - a0;
       const Double3 g = g0 * d1 + g1 * d2;
-      q.add_gradient(k, to_float(g), static_cast<float>(a0 - dot(g, to_double(origin))), area);
+      gradient[0][k] = static_cast<float>(g.x), gradient[1][k] = static_cast<float>(g.y),
+      gradient[2][k] = static_cast<float>(g.z);
+      gradient[3][k] = static_cast<float>(a0 - dot(g, to_double(origin)));
     }
-    q.weight = area;
+    AttributeQuadric q;
+    q.set(gradient, area);
     for (const std::uint32_t v : at) node_quadrics_[v] += q;
   }
 
   // ---- what collapses where
 
-  // Calls offer(q, cost) for every q onto which p may collapse.
+  float most_error(const PlaneQuadric& planes) const {
+    return planes.weight > 0 ? planes.weight * limit_ : k_infinity;
+  }
+
+  // What it costs to go to a node, infinity when that errs too much.
+  float way(const PlaneQuadric& planes, std::uint32_t from, std::uint32_t to, float most) const {
+    const Node& target = nodes_[to];
+    const float base = planes.at(target.place);
+    if (!(base <= most)) return k_infinity;
+    return base + node_quadrics_[from].at(target.place, target.attributes);
+  }
+
+  // Calls offer(q, cost) for every q onto which p may collapse; costs above the bound need not be told.
   template <class Offer>
-  void choices(std::uint32_t p, Offer offer) {
+  void choices(std::uint32_t p, const float& bound, Offer offer) {
     const PlaneQuadric& planes = quadrics_[p];
-    const float most = planes.weight > 0 ? planes.weight * limit_ : std::numeric_limits<float>::infinity();
+    const float most = most_error(planes);
     const std::uint32_t node = first_node_[p];
-    const auto weigh = [&](std::uint32_t corner) {
-      const Node& to = nodes_[node_at(corner)];
-      const float base = planes.at(to.place);
-      if (!(base <= most)) return;
-      const float cost = base + node_quadrics_[node].at(to.place, to.attributes);
-      if (std::isfinite(cost)) offer(at(corner), cost);
+    const auto weigh = [&](std::uint32_t q, std::uint32_t to) {
+      const float cost = way(planes, node, to, std::min(most, bound));
+      if (std::isfinite(cost)) offer(q, cost);
     };
     if (kinds_[p] == Kind::inner && node_count(p) == 1) {
-      for (const std::uint32_t c : ring(p)) {
-        weigh(next_corner(c));
-      }
+      for (const Around& c : ring(p)) weigh(c.next, c.next_node);
     } else if (kinds_[p] == Kind::border && node_count(p) == 1) {
-      for (const std::uint32_t c : ring(p)) {
-        for (const std::uint32_t d : {next_corner(c), previous_corner(c)}) {
-          if (shared_faces(p, at(d)) == 1) weigh(d);
-        }
+      for (const Around& c : ring(p)) {
+        if (shared_faces(p, c.next) == 1) weigh(c.next, c.next_node);
+        if (shared_faces(p, c.previous) == 1) weigh(c.previous, node_at(previous_corner(c.corner)));
       }
     } else if (kinds_[p] == Kind::seam || kinds_[p] == Kind::inner || kinds_[p] == Kind::border) {
-      seam_choices(p, most, offer);
+      seam_choices(p, most, bound, offer);
     }
   }
   std::uint32_t shared_faces(std::uint32_t p, std::uint32_t q) const {
     std::uint32_t faces = 0;
-    for (const std::uint32_t c : ring(p)) faces += at(next_corner(c)) == q || at(previous_corner(c)) == q;
+    for (const Around& c : ring(p)) faces += c.next == q || c.previous == q;
     return faces;
   }
 
   // All nodes of p go, each along an edge of its own triangles.
   template <class Offer>
-  void seam_choices(std::uint32_t p, float most, Offer offer) {
-    for (const std::uint32_t c : ring(p)) {
-      const std::uint32_t q = at(next_corner(c));
+  void seam_choices(std::uint32_t p, float most, const float& bound, Offer offer) {
+    const std::uint32_t used = find_own_nodes(p);
+    for (const Around& c : ring(p)) {
+      const std::uint32_t q = c.next;
       if (kinds_[q] != Kind::seam && kinds_[q] != Kind::fixed) continue;
       float cost = quadrics_[p].at(places_[q]);
-      if (!(cost <= most)) continue;
+      if (!(cost <= std::min(most, bound))) continue;
       std::uint32_t mapped = 0;
       bool sound = true;
       for (std::uint32_t n = first_node_[p]; n < first_node_[p + 1] && sound; ++n) {
@@ -324,32 +357,37 @@ class Collapser {
         cost += node_quadrics_[n].at(places_[q], nodes_[to].attributes);
         ++mapped;
       }
-      if (sound && mapped == used_nodes(p) && std::isfinite(cost)) offer(q, cost);
+      if (sound && mapped == used && std::isfinite(cost)) offer(q, cost);
     }
+  }
+  // The node of p itself in each of its triangles. How many there are.
+  std::uint32_t find_own_nodes(std::uint32_t p) {
+    own_nodes_.clear();
+    for (const Around& a : ring(p)) own_nodes_.push_back(node_at(a.corner));
+    std::uint32_t used = 0;
+    for (std::uint32_t n = first_node_[p]; n < first_node_[p + 1]; ++n)
+      used += std::find(own_nodes_.begin(), own_nodes_.end(), n) != own_nodes_.end();
+    return used;
   }
   // The node of q that the triangles with an edge from node n of p to q have; not sound: two of them.
   std::uint32_t node_along(std::uint32_t p, std::uint32_t q, std::uint32_t n, bool& sound) const {
     std::uint32_t to = k_none;
-    for (const std::uint32_t c : ring(p)) {
-      if (node_at(c) != n) continue;
-      for (const std::uint32_t d : {next_corner(c), previous_corner(c)}) {
-        if (at(d) != q) continue;
-        if (to != k_none && to != node_at(d)) sound = false;
-        to = node_at(d);
-      }
+    const auto follow = [&](std::uint32_t node) {
+      if (to != k_none && to != node) sound = false;
+      to = node;
+    };
+    const auto around = ring(p);
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      if (own_nodes_[i] != n) continue;
+      if (around[i].next == q) follow(around[i].next_node);
+      if (around[i].previous == q) follow(node_at(previous_corner(around[i].corner)));
     }
     return to;
   }
-  std::uint32_t used_nodes(std::uint32_t p) const {
-    std::uint32_t used = 0;
-    for (std::uint32_t n = first_node_[p]; n < first_node_[p + 1]; ++n)
-      used += std::any_of(ring(p).begin(), ring(p).end(), [&](std::uint32_t c) { return node_at(c) == n; });
-    return used;
-  }
 
   Candidate cheapest(std::uint32_t p) {
-    Candidate best{k_none, k_none, 0};
-    choices(p, [&](std::uint32_t q, float cost) {
+    Candidate best{k_none, k_none, k_infinity};
+    choices(p, best.cost, [&](std::uint32_t q, float cost) {
       if (best.thrown == k_none || cost < best.cost || (cost == best.cost && q < best.kept))
         best = {p, q, cost};
     });
@@ -384,8 +422,7 @@ class Collapser {
   std::size_t pass(double share) {
     ++pass_;
     const auto goal = static_cast<std::size_t>(share * static_cast<double>(candidates_.size()));
-    const float limit = goal + 1 >= candidates_.size() ? std::numeric_limits<float>::infinity()
-                                                       : candidates_[goal].cost * k_pass_slack;
+    const float limit = goal + 1 >= candidates_.size() ? k_infinity : candidates_[goal].cost * k_pass_slack;
     std::uint64_t left = triangles_.size();
     std::size_t made = 0;
     for (const Candidate& c : candidates_) {
@@ -412,7 +449,7 @@ class Collapser {
   std::uint32_t detour(const Candidate& refused, float limit) {
     const std::uint32_t p = refused.thrown;
     ways_.clear();
-    choices(p, [&](std::uint32_t q, float cost) { ways_.push_back({p, q, cost}); });
+    choices(p, k_infinity, [&](std::uint32_t q, float cost) { ways_.push_back({p, q, cost}); });
     const auto before = [](const Candidate& a, const Candidate& b) {
       return a.cost != b.cost ? a.cost < b.cost : a.kept < b.kept;
     };
@@ -433,24 +470,19 @@ class Collapser {
   // their rings are complete.
   bool allowed(std::uint32_t p, std::uint32_t q, std::uint32_t& gone) {
     gone = 0;
-    for (const std::uint32_t c : ring(p)) {
-      const std::uint32_t x = at(next_corner(c)), y = at(previous_corner(c));
-      if (x == y || x == p || y == p) continue;
-      if (x == q || y == q) {
-        ++gone;
-      } else if (folds(p, x, y, q)) {
-        return false;
-      }
-    }
-    return gone > 0 && gone <= 2 && shared_neighbours(p, q) == gone && (gone < 2 || !makes_twice(p, q));
+    for (const Around& c : ring(p)) gone += c.next != c.previous && (c.next == q || c.previous == q);
+    if (gone == 0 || gone > 2 || shared_neighbours(p, q) != gone) return false;
+    for (const auto& [c, x, y, node] : ring(p))
+      if (x != y && x != q && y != q && folds(p, x, y, q)) return false;
+    return gone < 2 || !makes_twice(p, q);
   }
   std::uint32_t shared_neighbours(std::uint32_t p, std::uint32_t q) {
     const std::uint32_t mark = ++mark_;
-    for (const std::uint32_t c : ring(q)) stamp_[at(next_corner(c))] = stamp_[at(previous_corner(c))] = mark;
+    for (const Around& c : ring(q)) stamp_[c.next] = stamp_[c.previous] = mark;
     const std::uint32_t seen = ++mark_;
     std::uint32_t shared = 0;
-    for (const std::uint32_t c : ring(p)) {
-      for (const std::uint32_t z : {at(next_corner(c)), at(previous_corner(c))}) {
+    for (const Around& c : ring(p)) {
+      for (const std::uint32_t z : {c.next, c.previous}) {
         if (z == q || z == p || stamp_[z] == seen) continue;
         shared += stamp_[z] == mark;
         stamp_[z] = seen;
@@ -471,15 +503,13 @@ class Collapser {
   // The faces of p whose other corners are neighbours of q: the two that the link condition lets through.
   bool makes_twice(std::uint32_t p, std::uint32_t q) const {
     std::uint32_t apex[2] = {k_none, k_none}, n = 0;
-    for (const std::uint32_t c : ring(p)) {
-      const std::uint32_t x = at(next_corner(c)), y = at(previous_corner(c));
+    for (const auto& [c, x, y, node] : ring(p)) {
       if (x == y || n == 2 || (x != q && y != q)) continue;
       apex[n++] = x == q ? y : x;
     }
     const auto has_face = [&](std::uint32_t v) {
-      return std::any_of(ring(v).begin(), ring(v).end(), [&](std::uint32_t c) {
-        const std::uint32_t x = at(next_corner(c)), y = at(previous_corner(c));
-        return (x == apex[0] && y == apex[1]) || (x == apex[1] && y == apex[0]);
+      return std::any_of(ring(v).begin(), ring(v).end(), [&](const Around& c) {
+        return (c.next == apex[0] && c.previous == apex[1]) || (c.next == apex[1] && c.previous == apex[0]);
       });
     };
     return has_face(p) && has_face(q);
@@ -495,11 +525,11 @@ class Collapser {
       return true;
     }
     loose_.clear();
-    for (const std::uint32_t c : ring(p)) {
-      const std::uint32_t own = wedge_at(c);
+    for (const Around& a : ring(p)) {
+      const std::uint32_t own = wedge_at(a.corner);
       bool along = false;
-      for (const std::uint32_t d : {next_corner(c), previous_corner(c)}) {
-        if (at(d) != q) continue;
+      for (const std::uint32_t d : {next_corner(a.corner), previous_corner(a.corner)}) {
+        if ((d == next_corner(a.corner) ? a.next : a.previous) != q) continue;
         along = true;
         const auto same =
             std::find_if(map_.begin(), map_.end(), [&](const CollapsedWedge& m) { return m.thrown == own; });
@@ -542,21 +572,21 @@ class Collapser {
       const bool added = std::any_of(map_.begin(), map_.begin() + static_cast<std::ptrdiff_t>(i),
                                      [&](const CollapsedWedge& m) { return node_of_[m.thrown] == from; });
       if (!added) node_quadrics_[to] += node_quadrics_[from];
+      wedge_now_[map_[i].thrown] = map_[i].kept, node_now_[from] = to;
       out_.wedges.push_back(map_[i]);
     }
     // What lies round the kept one alone goes where it did for what it did, but what was refused may be
     // allowed.
-    for (const std::uint32_t corner : ring(c.kept))
-      for (const std::uint32_t d : {next_corner(corner), previous_corner(corner)})
-        stale_[at(d)] |= refused_[at(d)];
-    for (const std::uint32_t corner : ring(c.thrown)) {
-      stale_[at(next_corner(corner))] = stale_[at(previous_corner(corner))] = 1;
-      triangles_[corner >> 2][corner & 3] = c.kept;
-      std::uint32_t& own = wedges_[corner >> 2][corner & 3];
-      own = std::find_if(map_.begin(), map_.end(), [&](const CollapsedWedge& m) {
-              return m.thrown == own;
-            })->kept;
-      corner_nodes_[corner >> 2][corner & 3] = node_of_[own];
+    for (const Around& a : ring(c.kept)) {
+      stale_[a.next] |= refused_[a.next];
+      stale_[a.previous] |= refused_[a.previous];
+    }
+    for (const Around& a : ring(c.thrown)) {
+      stale_[a.next] = stale_[a.previous] = 1;
+      for (Around& b : ring(a.next))
+        if (b.previous == c.thrown) b.previous = c.kept;
+      for (Around& b : ring(a.previous))
+        if (b.next == c.thrown) b.next = c.kept, b.next_node = node_now_[b.next_node];
     }
     const PlaneQuadric& q = quadrics_[c.thrown];
     const double mean = q.weight > 0 ? q.at(places_[c.kept]) / q.weight : 0;
@@ -572,9 +602,10 @@ class Collapser {
   float limit_ = static_cast<float>(options_.max_error * options_.max_error);
   std::vector<Corners> triangles_, wedges_, corner_nodes_;  // of what is left: positions, wedges, nodes
   std::vector<Float3> places_;
-  std::vector<std::uint32_t> wedge_, next_wedge_;  // of each position a chain
-  std::vector<std::uint32_t> node_of_;             // of each wedge
-  std::vector<std::uint32_t> first_node_;          // of each position, and the end
+  std::vector<std::uint32_t> wedge_, next_wedge_;    // of each position a chain
+  std::vector<std::uint32_t> node_of_;               // of each wedge
+  std::vector<std::uint32_t> wedge_now_, node_now_;  // where it went in this pass; itself if it is there
+  std::vector<std::uint32_t> first_node_;            // of each position, and the end
   std::vector<Node> nodes_;
   std::vector<PlaneQuadric> quadrics_;  // of positions
   std::vector<AttributeQuadric> node_quadrics_;
@@ -582,9 +613,10 @@ class Collapser {
   std::vector<std::uint8_t> broken_, stale_, refused_;
   std::vector<Candidate> best_;  // of each position
   std::vector<std::uint32_t> opposite_;
-  std::vector<std::uint32_t> ring_first_, ring_, fill_, stamp_, touched_;
+  std::vector<Around> ring_;  // in the order of positions
+  std::vector<std::uint32_t> ring_first_, fill_, stamp_, touched_;
   std::vector<CollapsedWedge> map_;
-  std::vector<std::uint32_t> loose_;
+  std::vector<std::uint32_t> loose_, own_nodes_;
   std::vector<Candidate> candidates_, scratch_, ways_;
   std::uint32_t mark_ = 0, pass_ = 0;
   EdgeCollapses out_;

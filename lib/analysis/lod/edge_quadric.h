@@ -4,6 +4,7 @@
 #include "lib/formats/vec.h"
 
 #include <array>
+#include <cstring>
 
 namespace copse {
 
@@ -24,40 +25,67 @@ struct PlaneQuadric {
     x += b.x, y += b.y, z += b.z, c += b.c, weight += b.weight;
     return *this;
   }
+  float signed_at(const Float3& p) const {
+    return p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z + x)) + p.y * (yy * p.y + 2 * (yz * p.z + y)) +
+           p.z * (zz * p.z + 2 * z) + c;
+  }
   float at(const Float3& p) const {
-    const float value = p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z + x)) +
-                        p.y * (yy * p.y + 2 * (yz * p.z + y)) + p.z * (zz * p.z + 2 * z) + c;
+    const float value = signed_at(p);
     return value > 0 ? value : -value;
   }
 };
 
+// Four attributes at a time.
+using Four [[gnu::vector_size(16)]] = float;
+
 // sum w (g . p + d - a)^2 over the attributes a, split into what depends on a and what does not.
-struct AttributeQuadric {
-  PlaneQuadric planes;
-  std::array<std::array<float, 4>, k_attributes> gradient{};
-  float weight = 0;
+struct alignas(64) AttributeQuadric {
+  PlaneQuadric planes;                                        // of the gradients; its weight is the sum of w
+  std::array<std::array<float, k_attributes>, 4> gradient{};  // x, y, z and d of all attributes
 
   AttributeQuadric& operator+=(const AttributeQuadric& b) {
     planes += b.planes;
-    for (std::size_t k = 0; k < k_attributes; ++k)
-      for (std::size_t i = 0; i < 4; ++i) gradient[k][i] += b.gradient[k][i];
-    weight += b.weight;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < k_attributes; ++k) gradient[i][k] += b.gradient[i][k];
     return *this;
   }
   float at(const Float3& p, const std::array<float, k_attributes>& a) const {
-    float value = p.x * (planes.xx * p.x + 2 * (planes.xy * p.y + planes.xz * p.z + planes.x)) +
-                  p.y * (planes.yy * p.y + 2 * (planes.yz * p.z + planes.y)) +
-                  p.z * (planes.zz * p.z + 2 * planes.z) + planes.c;
-    for (std::size_t k = 0; k < k_attributes; ++k) {
-      const auto& g = gradient[k];
-      value += a[k] * (a[k] * weight - 2 * (g[0] * p.x + g[1] * p.y + g[2] * p.z + g[3]));
-    }
+    float value = planes.signed_at(p);
+    const Four four = four_of(a);
+    const Four parts =
+        four * (four * planes.weight - 2 * (four_of(gradient[0]) * p.x + four_of(gradient[1]) * p.y +
+                                            four_of(gradient[2]) * p.z + four_of(gradient[3])));
+    for (int k = 0; k < 4; ++k) value += parts[k];
+    value += a[4] * (a[4] * planes.weight - 2 * (gradient[0][4] * p.x + gradient[1][4] * p.y +
+                                                 gradient[2][4] * p.z + gradient[3][4]));
     return value > 0 ? value : 0;
   }
-  void add_gradient(std::size_t k, const Float3& g, float d, float w) {
-    planes.add_plane(g, d, w);
-    planes.weight -= w;
-    gradient[k][0] += w * g.x, gradient[k][1] += w * g.y, gradient[k][2] += w * g.z, gradient[k][3] += w * d;
+  // Of one face whose weight is w: of each attribute a gradient, and what it is at the origin.
+  void set(const std::array<std::array<float, k_attributes>, 4>& g, float w) {
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < k_attributes; ++k) gradient[i][k] = w * g[i][k];
+    const auto sum = [&](std::size_t i, std::size_t j) {
+      const Four products = four_of(gradient[i]) * four_of(g[j]);
+      return products[0] + products[1] + products[2] + products[3] + gradient[i][4] * g[j][4];
+    };
+    planes = {.xx = sum(0, 0),
+              .yy = sum(1, 1),
+              .zz = sum(2, 2),
+              .xy = sum(0, 1),
+              .xz = sum(0, 2),
+              .yz = sum(1, 2),
+              .x = sum(0, 3),
+              .y = sum(1, 3),
+              .z = sum(2, 3),
+              .c = sum(3, 3),
+              .weight = w};
+  }
+
+ private:
+  static Four four_of(const std::array<float, k_attributes>& a) {
+    Four out;
+    std::memcpy(&out, a.data(), sizeof out);
+    return out;
   }
 };
 
