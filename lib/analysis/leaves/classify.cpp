@@ -81,12 +81,12 @@ bool weld_borders(const Mesh& mesh, const PieceScan& scan, Indices& welded) {
   return changed;
 }
 
-Classification collect(const Mesh& mesh, const PieceScan& scan, PieceClasses classes) {
+Classification collect(const Mesh& mesh, const Indices& welded, const PieceScan& scan, PieceClasses classes) {
   Classification out;
   const Pieces& pieces = scan.pieces();
   std::vector<std::uint8_t> is_leaf(pieces.count);
   for (std::uint32_t p = 0; p < pieces.count; ++p) is_leaf[p] = classes.kind[p] == PartClass::leaf;
-  const LeafUnits units = leaf_units(mesh, scan.triangles(), is_leaf);
+  const LeafUnits units = leaf_units(mesh, welded, scan.triangles(), is_leaf);
   out.leaf_count = units.count;
   out.reasons = std::make_shared<const std::vector<std::string>>(std::move(classes.reasons));
   out.components.resize(pieces.count);
@@ -112,7 +112,7 @@ Classification classify_pieces(const Mesh& mesh, Indices& welded, bool refine,
     scan.reset();  // first: there may be millions of pieces
     scan.emplace(scan_pieces());
   }
-  Classification out = collect(mesh, *scan, classify_pieces_by_rule(mesh, welded, *scan, verdicts));
+  Classification out = collect(mesh, welded, *scan, classify_pieces_by_rule(mesh, welded, *scan, verdicts));
   out.component_of = std::move(*scan).take_piece_of();
   return out;
 }

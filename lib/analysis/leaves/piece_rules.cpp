@@ -1,5 +1,7 @@
 #include "lib/analysis/leaves/piece_rules.h"
 
+#include "lib/analysis/leaves/end_to_end.h"
+
 #include <algorithm>
 #include <array>
 #include <unordered_map>
@@ -16,6 +18,7 @@ enum class Finding : std::uint8_t {
   ground,        // trunk
   blade,         // trunk: grass moves from its root, each blade a strip of its own (thesis 5.6)
   stem,          // trunk
+  continued,     // trunk: a blob or sheet that a stem goes on from, end to end
   needle,        // leaf
   carried_stem,  // leaf: a slender crown
   named_stem,    // leaf: in a mesh that is all named leaf, a stem that is not the trunk
@@ -36,6 +39,7 @@ bool is_trunk(Finding f, NameClass named) {
     case Finding::ground:
     case Finding::blade:
     case Finding::stem:
+    case Finding::continued:
     case Finding::named_blob:
     case Finding::brown_blob:
     case Finding::pillar:
@@ -58,6 +62,7 @@ constexpr double k_trunk_size = 0.25;       // of the mesh's height: what a trun
 constexpr double k_on_ground = 0.1;         // of the mesh's height: roots and slopes
 constexpr double k_ground_thickness = 0.1;  // of the mesh's height
 constexpr double k_lowest = 0.02;           // of the mesh's height
+constexpr double k_meadow = 0.5;            // of the mesh's width: over which blades stand
 constexpr double k_narrower = 0.8;          // a trunk's width over that of the crown on it
 constexpr double k_lone_sheet = 16;         // a trunk in one open surface is so many times any leaf's area
 constexpr double k_much_narrower = 0.6;     // the same where the crown is as slender as a stem
@@ -89,8 +94,10 @@ class Rules {
   std::vector<Finding> run() {
     look_at_materials();
     for (std::uint32_t p = 0; p < found_.size(); ++p) found_[p] = first_look(p);
+    find_chains();
     find_caps();
     for (const PlacedPiece& placed : scan_.placed()) look_at_place(placed);
+    find_continued();
     find_piles();
     find_stump();
     return std::move(found_);
@@ -115,18 +122,20 @@ class Rules {
     return bark && scan_.alike(p) < k_many ? Finding::few_sheets : Finding::sheet;
   }
 
-  // Named grass, or a mesh that is nothing but strips rooted as the thesis asks.
+  // Named grass, or a mesh that is nothing but strips: rooted as the thesis asks, or many of them standing
+  // all over the ground (the fronds of a fern begin in one place).
   bool is_blade(std::uint32_t p) const {
     const PieceFact& fact = scan_.fact(p);
-    if (verdict(p).grass.empty()) return all_rooted_strips_;
+    if (verdict(p).grass.empty()) return all_rooted_strips_ || all_standing_strips_;
     return fact.strip && fact.stands;
   }
 
   void look_at_materials() {
     constexpr std::size_t k_blade_triangles = 4;  // without a name; fewer are cards
     for (std::uint32_t p = 0; p < found_.size(); ++p) {
-      all_rooted_strips_ = all_rooted_strips_ && scan_.fact(p).rooted && verdict(p).kind == NameClass::none &&
-                           triangle_count(p) >= k_blade_triangles;
+      const bool may_be_blade = verdict(p).kind == NameClass::none && triangle_count(p) >= k_blade_triangles;
+      all_rooted_strips_ = all_rooted_strips_ && may_be_blade && scan_.fact(p).rooted;
+      all_standing_strips_ = all_standing_strips_ && may_be_blade && scan_.fact(p).footed;
       if (scan_.fact(p).decided) {
         any_named_leaf_ |= verdict(p).kind == NameClass::leaf;
         continue;
@@ -134,6 +143,9 @@ class Rules {
       any_sheet_ |= scan_.fact(p).shape == ShapeKind::sheet;
       if (const Material* m = material_of(p)) any_green_ |= is_green(*m);
     }
+    const Double3 feet = scan_.feet().extent(), all = scan_.bounds().extent();
+    all_standing_strips_ = all_standing_strips_ && found_.size() >= k_many &&
+                           std::max(feet.x, feet.z) >= k_meadow * std::max(all.x, all.z);
   }
   const Material* material_of(std::uint32_t p) const {
     const std::uint32_t m = mesh_.parts[scan_.part(p)].material;
@@ -163,10 +175,63 @@ class Rules {
       found = Finding::brown_blob;
     }
   }
-  // Thousands of equal spikes are needles, unless there are other leaves: then they are twigs.
+  // Thousands of equal spikes are needles, unless there are other leaves or they go on from one another: then
+  // they are twigs.
   bool is_needle(std::uint32_t p, const PieceShape& s) const {
-    return !any_sheet_ && !any_named_leaf_ && triangle_count(p) <= k_needle_triangles &&
+    return !any_sheet_ && !is_chained(p) && !any_named_leaf_ && triangle_count(p) <= k_needle_triangles &&
            scan_.alike(p) >= k_needles && s.size <= k_needle_size * height_;
+  }
+
+  // --- tubes laid end to end
+  // --------------------------------------------------------------------------------
+
+  bool is_chained(std::uint32_t p) const { return !chain_of_.empty() && chain_size_[chain_of_[p]] > 1; }
+
+  // Which pieces go on from one another, where that can tell anything of one.
+  void find_chains() {
+    constexpr std::size_t k_tube_triangles = 6;
+    std::vector<std::uint32_t> asked;
+    bool doubtful = false;
+    for (std::uint32_t p = 0; p < found_.size(); ++p) {
+      const PieceFact& fact = scan_.fact(p);
+      if (fact.decided || fact.planar || fact.strip || triangle_count(p) < k_tube_triangles) continue;
+      asked.push_back(p);
+      doubtful |= !trunk(p) || triangle_count(p) <= k_needle_triangles;
+    }
+    if (!doubtful) return;
+    chain_of_ = end_to_end(mesh_, welded_, scan_.pieces(), scan_.triangles(), asked);
+    chain_size_.assign(found_.size(), 0);
+    for (const std::uint32_t c : chain_of_) ++chain_size_[c];
+  }
+
+  // What goes on from trunk is trunk; so is a chain that is long for its thickness, whatever its links are.
+  void find_continued() {
+    if (chain_of_.empty()) return;
+    std::vector<std::uint8_t> wooden(found_.size(), 0);
+    std::vector<std::uint32_t> links;
+    for (std::uint32_t p = 0; p < found_.size(); ++p) {
+      if (!is_chained(p)) continue;
+      links.push_back(p);
+      wooden[chain_of_[p]] |= trunk(p);
+    }
+    std::ranges::stable_sort(links, {}, [&](std::uint32_t p) { return chain_of_[p]; });
+    for (std::size_t begin = 0, end = 0; begin < links.size(); begin = end) {
+      const std::uint32_t chain = chain_of_[links[begin]];
+      while (end < links.size() && chain_of_[links[end]] == chain) ++end;
+      const std::span<const std::uint32_t> all = std::span(links).subspan(begin, end - begin);
+      if (!wooden[chain] && !is_long(all)) continue;
+      for (const std::uint32_t p : all) {
+        if (found_[p] == Finding::blob || found_[p] == Finding::sheet) found_[p] = Finding::continued;
+      }
+    }
+  }
+  bool is_long(std::span<const std::uint32_t> pieces) const {
+    std::vector<std::uint32_t> triangles;
+    for (const std::uint32_t p : pieces) {
+      const auto of = scan_.triangles().of(p);
+      triangles.insert(triangles.end(), of.begin(), of.end());
+    }
+    return shape_of(mesh_, welded_, scan_.pieces(), triangles).kind == ShapeKind::stem;
   }
 
   // --- caps: a few triangles of another material that close a tube ---------------------------------------
@@ -301,7 +366,8 @@ class Rules {
   std::vector<Finding> found_;
   double height_ = 0, ground_ = 0;
   bool any_sheet_ = false, any_named_leaf_ = false, any_green_ = false;
-  bool all_rooted_strips_ = true;
+  bool all_rooted_strips_ = true, all_standing_strips_ = true;
+  std::vector<std::uint32_t> chain_of_, chain_size_;  // one a piece: of tubes laid end to end; or empty
 };
 
 // --- words -----------------------------------------------------------------------------------------------
@@ -339,6 +405,8 @@ std::string describe(Finding f, const PieceFact& fact, std::size_t n) {
       return counted("a stem", n) + " that does not stand on the ground";
     case Finding::blob:
       return counted("a blob", n);
+    case Finding::continued:
+      return counted("a tube", n) + " that is laid end to end with others";
     case Finding::named_blob:
       return counted("a lump", n);
     case Finding::brown_blob:

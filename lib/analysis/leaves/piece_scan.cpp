@@ -9,8 +9,6 @@ namespace {
 
 constexpr double k_wide = 0.5;       // of the mesh, along x and along z
 constexpr double k_on_ground = 0.1;  // of the mesh's height
-// Twice a triangle's area over the square of its longer side: what six digits of a file make of none.
-constexpr double k_no_area = 1e-5;
 
 bool is_wide(const DoubleBox& piece, const DoubleBox& mesh) {
   return piece.extent().x >= k_wide * mesh.extent().x && piece.extent().z >= k_wide * mesh.extent().z;
@@ -42,17 +40,7 @@ bool is_strip(const Pieces& pieces, std::span<const std::uint32_t> triangles) {
 class Strip {
  public:
   Strip(const Mesh& mesh, std::span<const std::uint32_t> welded, std::span<const std::uint32_t> triangles)
-      : mesh_(mesh) {
-    for (const std::uint32_t t : triangles) {
-      Triangle v = mesh.triangles[t];
-      if (!has_area(v)) continue;
-      for (std::uint32_t& corner : v) corner = welded[corner];
-      std::ranges::sort(v);
-      if (v[0] != v[1] && v[1] != v[2]) triangles_.push_back(v);
-    }
-    std::ranges::sort(triangles_);
-    const auto repeated = std::ranges::unique(triangles_);
-    triangles_.erase(repeated.begin(), repeated.end());
+      : mesh_(mesh), triangles_(sound_triangles(mesh, welded, triangles)) {
     for (const Triangle& v : triangles_) {
       for (int e = 0; e < 3; ++e) edges_.push_back(edge(v, e));
     }
@@ -68,10 +56,13 @@ class Strip {
     }
     return ends == 2;
   }
-  bool has_side_below_zero() const {
-    return std::ranges::any_of(edges_, [&](const Edge& e) {
-      return mesh_.positions[e[0]].y < 0 && mesh_.positions[e[1]].y < 0 && is_border(e);
-    });
+  DoubleBox sides_below(double level) const {
+    DoubleBox box;
+    for (const Edge& e : edges_) {
+      const Double3 &a = mesh_.positions[e[0]], &b = mesh_.positions[e[1]];
+      if (a.y < level && b.y < level && is_border(e)) box.grow(a), box.grow(b);
+    }
+    return box;
   }
 
  private:
@@ -81,26 +72,25 @@ class Strip {
     return {std::min(a, b), std::max(a, b)};
   }
   bool is_border(const Edge& e) const { return std::ranges::equal_range(edges_, e).size() == 1; }
-  bool has_area(const Triangle& v) const {
-    const Double3 a = mesh_.positions[v[1]] - mesh_.positions[v[0]];
-    const Double3 b = mesh_.positions[v[2]] - mesh_.positions[v[0]];
-    return length(cross(a, b)) > k_no_area * std::max(dot(a, a), dot(b, b));
-  }
 
   const Mesh& mesh_;
   std::vector<Triangle> triangles_;
   std::vector<Edge> edges_;
 };
 
-bool has_side_below_zero(const Mesh& mesh, const Pieces& pieces, std::span<const std::uint32_t> triangles) {
+// What the sides on the border that lie below a level take up.
+DoubleBox sides_below(double level, const Mesh& mesh, const Pieces& pieces,
+                      std::span<const std::uint32_t> triangles) {
+  DoubleBox box;
   for (const std::uint32_t t : triangles) {
     for (int e = 0; e < 3; ++e) {
-      const Triangle& v = mesh.triangles[t];
-      const bool border = (pieces.edges[t] & Pieces::border_0 << e) != 0;
-      if (border && mesh.positions[v[e]].y < 0 && mesh.positions[v[(e + 1) % 3]].y < 0) return true;
+      if (!(pieces.edges[t] & Pieces::border_0 << e)) continue;
+      const Double3& a = mesh.positions[mesh.triangles[t][e]];
+      const Double3& b = mesh.positions[mesh.triangles[t][(e + 1) % 3]];
+      if (a.y < level && b.y < level) box.grow(a), box.grow(b);
     }
   }
-  return false;
+  return box;
 }
 
 }  // namespace
@@ -131,14 +121,21 @@ PieceFact PieceScan::read(const Mesh& mesh, std::span<const std::uint32_t> welde
     fact.layered = shape.border_ratio == 0 && !shape.solid && shape.area > 0;
     fact.capped = lies_on_others(pieces_, triangles);
     fact.strip = is_strip(pieces_, triangles);
-    fact.stands = shape.box.min.y <= bounds_.min.y + k_on_ground * bounds_.extent().y;
-    fact.rooted = fact.strip && has_side_below_zero(mesh, pieces_, triangles);
-    // Sorting is for those alone that may be blades of grass.
-    if (!fact.strip && fact.stands) {
+    const double ground = bounds_.min.y + k_on_ground * bounds_.extent().y;
+    fact.stands = shape.box.min.y <= ground;
+    DoubleBox below_zero, foot;
+    if (fact.strip) {
+      below_zero = sides_below(0, mesh, pieces_, triangles);
+      if (fact.stands) foot = sides_below(ground, mesh, pieces_, triangles);
+    } else if (fact.stands) {
+      // Sorting is for those alone that may be blades of grass.
       const Strip strip(mesh, welded, triangles);
       fact.strip = strip.is_strip();
-      fact.rooted = fact.strip && strip.has_side_below_zero();
+      if (fact.strip) below_zero = strip.sides_below(0), foot = strip.sides_below(ground);
     }
+    fact.rooted = !below_zero.empty();
+    fact.footed = !foot.empty() && shape.box.max.y > ground;
+    if (fact.footed) feet_.grow(foot);
   }
   if (shape.kind != ShapeKind::sheet || is_wide(shape.box, bounds_)) placed_.push_back({piece, shape});
   std::vector<std::uint32_t>& count = alike_[static_cast<int>(shape.kind)];

@@ -21,9 +21,9 @@ struct PieceFact {
   bool planar = false, solid = false, layered = false;  // layered: a sheet without a border
   bool capped = false;  // a sheet all of whose border lies on triangles of other keys
   // Sheets only. A strip is a row of triangles, each with a side on the border; it stands when it reaches
-  // down to the lowest tenth of the mesh, and is rooted when a whole side of it lies below y = 0
-  // (thesis 2.1).
-  bool strip = false, stands = false, rooted = false;
+  // down to the lowest tenth of the mesh, has a foot when it reaches out of that and a whole side of it lies
+  // in there, and is rooted when a whole side of it lies below y = 0 (thesis 2.1).
+  bool strip = false, stands = false, footed = false, rooted = false;
 };
 
 // The pieces whose place matters: stems, blobs, and sheets half as wide as the mesh.
@@ -46,6 +46,7 @@ class PieceScan {
   // How many undecided pieces have this one's shape and number of triangles.
   std::uint32_t alike(std::uint32_t piece) const;
   const DoubleBox& bounds() const { return bounds_; }  // of all triangles
+  const DoubleBox& feet() const { return feet_; }      // of the sides that strips with a foot stand on
 
   template <class Use>
   void for_each_bent_piece(Use&& use) const {
@@ -64,7 +65,7 @@ class PieceScan {
   std::vector<PieceFact> facts_;
   std::vector<PlacedPiece> placed_;
   std::vector<std::uint32_t> alike_[3];  // by shape and number of triangles
-  DoubleBox bounds_;
+  DoubleBox bounds_, feet_;
 };
 
 }  // namespace copse

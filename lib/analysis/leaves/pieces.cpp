@@ -7,6 +7,9 @@
 namespace copse {
 namespace {
 
+// Twice a triangle's area over the square of its longer side: what six digits of a file make of none.
+constexpr double k_no_area = 1e-5;
+
 // An edge as its lower vertex keeps it: the higher vertex, and 3 * triangle + edge.
 struct Use {
   std::uint32_t high, corner;
@@ -179,6 +182,25 @@ PieceTriangles triangles_of(std::span<const std::uint32_t> piece_of, std::uint32
     out.triangle[--out.first[piece_of[t]]] = static_cast<std::uint32_t>(t);
   }
   return out;
+}
+
+std::vector<Triangle> sound_triangles(const Mesh& mesh, std::span<const std::uint32_t> welded,
+                                      std::span<const std::uint32_t> triangles) {
+  std::vector<Triangle> sound;
+  sound.reserve(triangles.size());
+  for (const std::uint32_t t : triangles) {
+    Triangle v = mesh.triangles[t];
+    const Double3 a = mesh.positions[v[1]] - mesh.positions[v[0]];
+    const Double3 b = mesh.positions[v[2]] - mesh.positions[v[0]];
+    if (!(length(cross(a, b)) > k_no_area * std::max(dot(a, a), dot(b, b)))) continue;
+    for (std::uint32_t& corner : v) corner = welded[corner];
+    std::ranges::sort(v);
+    if (v[0] != v[1] && v[1] != v[2]) sound.push_back(v);
+  }
+  std::ranges::sort(sound);
+  const auto repeated = std::ranges::unique(sound);
+  sound.erase(repeated.begin(), repeated.end());
+  return sound;
 }
 
 }  // namespace copse

@@ -43,4 +43,9 @@ struct PieceTriangles {
 };
 PieceTriangles triangles_of(std::span<const std::uint32_t> piece_of, std::uint32_t pieces);
 
+// Some triangles without what a damaged file adds, those that are there twice and those without area: their
+// welded corners, ascending in each and among them. O(n log n).
+std::vector<Triangle> sound_triangles(const Mesh& mesh, std::span<const std::uint32_t> welded,
+                                      std::span<const std::uint32_t> triangles);
+
 }  // namespace copse
