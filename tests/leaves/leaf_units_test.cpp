@@ -19,7 +19,7 @@ LeafUnits units(const Mesh& mesh, std::vector<std::uint8_t> is_leaf = {}) {
   for (std::uint32_t p = 0; p < keys.size(); ++p) keys[p] = p;
   const Pieces pieces = edge_pieces(mesh.triangles, welded, mesh.part_of, keys);
   if (is_leaf.empty()) is_leaf.assign(pieces.count, 1);
-  return leaf_units(mesh, triangles_of(pieces.of, pieces.count), is_leaf);
+  return leaf_units(mesh, welded, triangles_of(pieces.of, pieces.count), is_leaf);
 }
 
 TEST(LeafUnits, OfNoPiecesAreNone) {
@@ -40,6 +40,18 @@ TEST(LeafUnits, CrossedCardsPairInWhateverOrderTheyCome) {
   const LeafUnits u = units(b.mesh);
   EXPECT_EQ(u.count, 40u);
   for (std::uint32_t i = 0; i < 40; ++i) EXPECT_EQ(u.of[i], u.of[79 - i]);
+}
+
+TEST(LeafUnits, TrianglesThatAreThereTwiceOrHaveNoAreaDoNotCount) {
+  Builder b;
+  for (int i = 0; i < 6; ++i) {
+    const auto first = static_cast<std::uint32_t>(b.mesh.positions.size());
+    b.card({i * 9.0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    if (i % 3 == 1) b.triangle(first + 1, first, first + 2);
+    if (i % 3 == 2) b.triangle(first, first, first + 1);
+    b.card({i * 9.0, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  }
+  EXPECT_EQ(units(b.mesh).count, 6u);
 }
 
 TEST(LeafUnits, FrontAndBackOfTwoMaterialsAreOneLeaf) {

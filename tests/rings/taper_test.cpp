@@ -34,6 +34,15 @@ TEST(Taper, TheTipOfAConeIsNoBaseHoweverNarrowTheFoot) {
   EXPECT_EQ(possible, (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 0, 0, 1}));
 }
 
+TEST(Taper, EndsOfLikeThicknessAreThickWhateverIsBetween) {
+  Limbs limbs;
+  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {0.95, 1});
+  add_limb(limbs, {5, 0, 0}, {0, 1, 0}, {1, 2, 3, 0.95});
+  add_limb(limbs, {9, 0, 0}, {0, 1, 0}, {1, 0.9, 0.8});
+  const auto thick = thick_ends(limbs, end_rings(limbs));
+  EXPECT_EQ(thick, (std::vector<std::uint8_t>{1, 1, 1, 0, 0, 1, 1, 0, 0}));
+}
+
 TEST(Taper, FollowsALimbThroughARootInItsMiddle) {
   Limbs limbs;
   add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 0.9, 0.8});

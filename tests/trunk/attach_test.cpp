@@ -67,6 +67,18 @@ TEST(Attach, PrefersTheTrueParentOfTubesThatAreLaidAgainstIt) {
   EXPECT_EQ(tree.parent(limbs, 10), 0u);
 }
 
+TEST(Attach, BelievesTheHabitOfTheFileMoreThanTheTaperOfARoughTwig) {
+  // Bases lie half a radius beside the trunk's axis. The last twig does so with its thinner end, by 2 %, and
+  // dips into the axis of a bough with the other.
+  Limbs limbs;
+  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, std::vector<double>(12, 0.5));
+  for (int i = 1; i < 8; ++i) add_limb(limbs, {0.125, 1.0 * i + 0.4, 0}, {1, 0, 0}, {0.3, 0.3, 0.3, 0.3});
+  add_limb(limbs, {0.125, 8.4, 0}, {1, -1, 0}, {0.294, 0.3});
+  const Attached tree(limbs);
+  EXPECT_EQ(tree.parent(limbs, 8), 0u);
+  EXPECT_EQ(tree.attachments[8].base, 12u + 7 * 4);
+}
+
 TEST(Attach, HangsSiblingsOfOneStartOnTheirParentAndNotOnEachOther) {
   Limbs limbs;
   add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 0.9, 0.8, 0.7});

@@ -19,7 +19,8 @@ struct Cards {
   std::vector<std::uint32_t> piece;  // the pieces that are leaves, ascending
   std::vector<Double3> centre;       // of their boxes
   std::vector<double> area;
-  std::vector<double> reach;  // from the centre to the farthest corner
+  std::vector<double> reach;             // from the centre to the farthest corner
+  std::vector<std::uint32_t> triangles;  // sound ones
 };
 
 double area_of(const Mesh& mesh, const Triangle& t) {
@@ -28,7 +29,8 @@ double area_of(const Mesh& mesh, const Triangle& t) {
   return std::sqrt(dot(n, n)) / 2;
 }
 
-Cards read_cards(const Mesh& mesh, const PieceTriangles& pieces, std::span<const std::uint8_t> is_leaf) {
+Cards read_cards(const Mesh& mesh, std::span<const std::uint32_t> welded, const PieceTriangles& pieces,
+                 std::span<const std::uint8_t> is_leaf) {
   Cards cards;
   for (std::uint32_t p = 0; p < is_leaf.size(); ++p) {
     if (!is_leaf[p]) continue;
@@ -39,6 +41,7 @@ Cards read_cards(const Mesh& mesh, const PieceTriangles& pieces, std::span<const
       for (const std::uint32_t v : mesh.triangles[t]) box.grow(mesh.positions[v]);
     }
     cards.piece.push_back(p);
+    cards.triangles.push_back(static_cast<std::uint32_t>(sound_triangles(mesh, welded, pieces.of(p)).size()));
     cards.centre.push_back(box.min * 0.5 + box.max * 0.5);
     cards.area.push_back(area);
     double square = 0;  // of the reach; only ratios of reaches matter, so that overflow may make two unlike
@@ -125,48 +128,48 @@ std::vector<std::uint32_t> weld_few(std::span<const Double3> points, double tole
 }
 
 // For every card the lowest card that it would be one leaf with, itself for none.
-std::vector<std::uint32_t> partners(const PieceTriangles& pieces, const Cards& cards) {
+std::vector<std::uint32_t> partners(const Cards& cards) {
   std::vector<std::uint32_t> partner = weld_few(cards.centre, tolerance(cards.area));
   for (std::uint32_t c = 0; c < partner.size(); ++c) {
     const std::uint32_t first = partner[c];
     const auto [small, large] = std::minmax(cards.reach[c], cards.reach[first]);
-    const bool alike = pieces.of(cards.piece[c]).size() == pieces.of(cards.piece[first]).size();
+    const bool alike = cards.triangles[c] == cards.triangles[first];
     if (!alike || small < k_like_reach * large) partner[c] = c;
   }
   return partner;
 }
 
 // By number of triangles: whether most cards with so many have a partner. A few that meet do so by chance.
-std::vector<bool> are_paired(const PieceTriangles& pieces, const Cards& cards,
-                             std::span<const std::uint32_t> partner) {
+std::vector<bool> are_paired(const Cards& cards, std::span<const std::uint32_t> partner) {
   std::vector<bool> has_partner(partner.size(), false);
-  std::size_t most = 0;
+  std::uint32_t most = 0;
   for (std::uint32_t c = 0; c < partner.size(); ++c) {
     if (partner[c] != c) has_partner[c] = has_partner[partner[c]] = true;
-    most = std::max(most, pieces.of(cards.piece[c]).size());
+    most = std::max(most, cards.triangles[c]);
   }
-  std::vector<std::uint32_t> all(most + 1, 0), paired(most + 1, 0);
+  std::vector<std::uint32_t> all(most + std::size_t{1}, 0), paired(most + std::size_t{1}, 0);
   for (std::uint32_t c = 0; c < partner.size(); ++c) {
-    const std::size_t n = pieces.of(cards.piece[c]).size();
+    const std::uint32_t n = cards.triangles[c];
     ++all[n];
     paired[n] += has_partner[c];
   }
-  std::vector<bool> most_are(most + 1);
+  std::vector<bool> most_are(most + std::size_t{1});
   for (std::size_t n = 0; n <= most; ++n) most_are[n] = 2 * std::uint64_t{paired[n]} > all[n];
   return most_are;
 }
 
 }  // namespace
 
-LeafUnits leaf_units(const Mesh& mesh, const PieceTriangles& pieces, std::span<const std::uint8_t> is_leaf) {
+LeafUnits leaf_units(const Mesh& mesh, std::span<const std::uint32_t> welded, const PieceTriangles& pieces,
+                     std::span<const std::uint8_t> is_leaf) {
   LeafUnits units;
   units.of.assign(is_leaf.size(), k_none);
-  const Cards cards = read_cards(mesh, pieces, is_leaf);
+  const Cards cards = read_cards(mesh, welded, pieces, is_leaf);
   if (cards.piece.empty()) return units;
-  const std::vector<std::uint32_t> partner = partners(pieces, cards);
-  const std::vector<bool> paired = are_paired(pieces, cards, partner);
+  const std::vector<std::uint32_t> partner = partners(cards);
+  const std::vector<bool> paired = are_paired(cards, partner);
   for (std::uint32_t c = 0; c < cards.piece.size(); ++c) {
-    const bool joins = partner[c] != c && paired[pieces.of(cards.piece[c]).size()];
+    const bool joins = partner[c] != c && paired[cards.triangles[c]];
     units.of[cards.piece[c]] = joins ? units.of[cards.piece[partner[c]]] : units.count++;
   }
   return units;

@@ -18,7 +18,6 @@ bool is_blunt(const Limbs& limbs, std::uint32_t point, std::uint32_t ring) {
 struct Profile {
   std::array<std::uint32_t, 2> end{k_none, k_none};
   std::uint32_t ends = 0;
-  double thickest = 0;      // end
   std::int64_t steps = 0;   // between rings of different diameter
   std::int64_t growth = 0;  // steps that thicken less steps that thin
 };
@@ -68,17 +67,25 @@ std::vector<std::uint32_t> end_rings(const Limbs& limbs) {
   return ends;
 }
 
+std::vector<std::uint8_t> thick_ends(const Limbs& limbs, std::span<const std::uint32_t> ends) {
+  const std::vector<double> thickness = end_thickness(limbs, ends);
+  std::vector<double> thickest(limbs.size, 0);
+  for (const std::uint32_t e : ends)
+    thickest[limbs.limb[e]] = std::max(thickest[limbs.limb[e]], thickness[e]);
+  std::vector<std::uint8_t> thick(limbs.rings(), 0);
+  for (const std::uint32_t e : ends) thick[e] = thickness[e] * k_like_thickness >= thickest[limbs.limb[e]];
+  return thick;
+}
+
 std::vector<std::uint8_t> possible_bases(const Limbs& limbs, std::span<const std::uint32_t> ends) {
   std::vector<Profile> profiles(limbs.size);
   DoubleBox box;
   for (const Double3& c : limbs.centre) box.grow(c);
   const double noise = 2 * k_rounding * length(box.extent());
-  const std::vector<double> thickness = end_thickness(limbs, ends);
   for (const std::uint32_t e : ends) {
     Profile& profile = profiles[limbs.limb[e]];
     if (profile.ends < 2) profile.end[profile.ends] = e;
     ++profile.ends;
-    profile.thickest = std::max(profile.thickest, thickness[e]);
   }
   std::vector<std::uint8_t> possible(limbs.rings(), 0);
   for (Profile& profile : profiles) {
@@ -89,9 +96,9 @@ std::vector<std::uint8_t> possible_bases(const Limbs& limbs, std::span<const std
     possible[profile.end[profile.growth > 0 ? 1 : 0]] = 1;
     profile.ends = 0;  // decided
   }
+  const std::vector<std::uint8_t> thick = thick_ends(limbs, ends);
   for (const std::uint32_t e : ends) {
-    const Profile& profile = profiles[limbs.limb[e]];
-    if (profile.ends != 0) possible[e] = thickness[e] * k_like_thickness >= profile.thickest;
+    if (profiles[limbs.limb[e]].ends != 0) possible[e] = thick[e];
   }
   return possible;
 }

@@ -367,9 +367,10 @@ double Attacher::cost_by_other_end(std::uint32_t limb, const Habit& usual) {
 }
 
 // A limb as thick at one end as at the other, and near something with both, begins with the end that is set
-// as the bases of this file are. Whether there was any to turn.
+// as the bases of this file are: what it tapers by may be how rough its rings are. Whether there was any to
+// turn.
 bool Attacher::turn_doubtful(const Habit& usual) {
-  const std::vector<std::uint8_t> possible = possible_bases(limbs_, end_rings(limbs_));
+  const std::vector<std::uint8_t> possible = thick_ends(limbs_, end_rings(limbs_));
   bool turned = false;
   std::vector<std::uint32_t> bases = bases_;
   for (std::uint32_t limb = 0; limb < bases_.size(); ++limb) {
