@@ -335,6 +335,15 @@ std::vector<Double3> gaussian_points(int n) {
   return points;
 }
 
+std::vector<Double3> cone(int sides) {
+  std::vector<Double3> points{{0, 0, 1}};
+  for (int i = 0; i < sides; ++i) {
+    const double turn = 2 * std::numbers::pi * i / sides;
+    points.push_back({std::cos(turn), std::sin(turn), 0});
+  }
+  return points;
+}
+
 template <class Work>
 auto timed(Work&& work, double& ms) {
   const double start = cpu_ms();
@@ -393,6 +402,7 @@ int run() {
   std::vector<Double3> sphere = gaussian_points(200'000);
   for (Double3& p : sphere) p = normalized(p);
   run_large("200 000 co-spherical points", sphere);
+  run_large("cone of 8 000 sides", cone(8000));
   print_models(models.found(), bench);
   fmt::print("\nLoad average at the end: {}.\n", load());
   return bench.ours.leaky == 0 ? 0 : 1;

@@ -120,7 +120,42 @@ TEST(ConvexHull, DoesNotDependOnTheOrderOrRepetitionOfThePoints) {
   }
 }
 
-// CGAL orders by the addresses of its elements: other blocks of memory must not give another hull.
+TEST(ConvexHull, AKernelIsOfTheCornersThatReachFarthestInAnyOrderAndRepetition) {
+  Points bowl = random_points(11, 20'000, {2, 2, 0});  // all are corners, and the rim is sharp
+  for (Double3& p : bowl) p.z = 0.2 * ((p.x - 1) * (p.x - 1) + (p.y - 1) * (p.y - 1));
+  const PointCloud cloud = make_point_cloud(bowl).value();
+  const ConvexHull hull = convex_hull(cloud, {.max_corners = 500});
+  EXPECT_EQ(hull.vertices.size(), 500u);
+  EXPECT_LT(hull.loss, 0.02);
+  double worst = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); i += 9)
+    worst = std::max(worst, outside_of(hull, cloud.points[i]));
+  EXPECT_LE(worst, hull.loss);
+  EXPECT_LT(worst, 5e-3);
+  Random random(1);
+  bowl.insert(bowl.end(), bowl.begin(), bowl.begin() + 5000);
+  random.shuffle(std::span(bowl));
+  const ConvexHull other = convex_hull(make_point_cloud(bowl).value(), {.max_corners = 500});
+  EXPECT_EQ(other.vertices, hull.vertices);
+  EXPECT_EQ(other.boundary, hull.boundary);
+  EXPECT_EQ(other.loss, hull.loss);
+}
+
+// A hull that takes what lies in a facet's plane for outside it cuts a lid anew for each of its corners.
+TEST(ConvexHull, OfAConeOfManySidesIsFoundAtOnce) {
+  constexpr int k_sides = 9000;
+  Points cone{{0, 0, 1}};
+  for (int i = 0; i < k_sides; ++i) {
+    const double a = 2 * std::numbers::pi * i / k_sides;
+    cone.push_back({std::cos(a), std::sin(a), 0});
+  }
+  const ConvexHull hull = hull_of(cone);
+  EXPECT_EQ(hull.vertices.size(), cone.size());
+  EXPECT_EQ(hull.faces.size(), 2u * k_sides - 2u);
+  EXPECT_NEAR(hull.frame.volume_out(hull.volume), std::numbers::pi / 3, 1e-5);
+}
+
+// Other blocks of memory must not give another hull.
 TEST(ConvexHull, DoesNotDependOnWhereInMemoryItIsBuilt) {
   Points torus;
   for (int i = 0; i < 20; ++i) {
@@ -199,8 +234,8 @@ TEST(ConvexHull, WhenTheTimeIsUpItIsOfFewerCornersAndKnowsWhatIsOutsideThem) {
   HullOptions late;
   late.deadline = Deadline::after(0);
   const ConvexHull hull = convex_hull(make_point_cloud(points).value(), late);
-  EXPECT_LE(hull.vertices.size(), k_least_candidates);
-  EXPECT_GT(hull.vertices.size(), k_least_candidates / 2);
+  EXPECT_LE(hull.vertices.size(), k_least_corners);
+  EXPECT_GT(hull.vertices.size(), k_least_corners / 2);
   EXPECT_GT(hull.loss, 0);
   EXPECT_EQ(hull.boundary.size(), points.size());
   EXPECT_EQ(hull.indices.size(), hull.vertices.size());

@@ -100,7 +100,7 @@ TEST(Cylinders, TheProofGivesNoneLargerThanTheSearchRoundAKernelAndReachesItsGap
   for (int seed = 0; seed < 3; ++seed) {
     std::vector<Double3> points = on_sphere(seed, 4000);
     for (Double3& p : points) p = {p.x, 0.999 * p.y, 1.001 * p.z};
-    const ConvexHull hull = convex_hull(make_point_cloud(points).value(), {.max_candidates = 300});
+    const ConvexHull hull = convex_hull(make_point_cloud(points).value(), {.max_corners = 300});
     ASSERT_GT(hull.loss, 0);
     ASSERT_GT(hull.boundary.size(), hull.vertices.size());
     MinimalCylinderOptions searched, proven;

@@ -140,59 +140,20 @@ void measure(ConvexHull& hull) {
   }
 }
 
-void hull_of_space(Points points, ConvexHull& hull) {
-  const ExactHull exact = exact_hull(points);
+// Where the hull is cut short what is outside it is told.
+void hull_of_space(Points points, const HullOptions& options, ConvexHull& hull) {
+  const ExactHull exact = exact_hull(points, {options.max_corners, k_least_corners, options.deadline});
   for (const std::uint32_t i : exact.vertices) hull.vertices.push_back(points[i]);
   hull.faces = exact.faces;
   find_edges(hull);
   measure(hull);
-}
-
-void rebuild(const std::vector<Double3>& points, ConvexHull& hull) {
-  hull.vertices.clear(), hull.faces.clear(), hull.edges.clear();
-  hull.volume = hull.area = 0;
-  hull_of_space(points, hull);
-}
-
-std::vector<Double3> joined(std::vector<Double3> a, const std::vector<Double3>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return distinct_points(a);
-}
-
-// How many corners the time allows for: about half of it goes to mending a kernel.
-std::size_t affordable(const HullOptions& options) {
-  constexpr double k_seconds = 2 * 10e-6;  // a corner
-  const double corners = options.deadline.seconds_left() / k_seconds;
-  if (corners >= static_cast<double>(options.max_candidates)) return options.max_candidates;
-  return std::min(options.max_candidates, std::max(k_least_candidates, static_cast<std::size_t>(corners)));
-}
-
-// What a kernel has left outside joins it: all of it where that is not too much, else what is farthest out of
-// each face, a few times. What is outside then is told.
-void settle_kernel(std::vector<Double3> points, std::size_t most, const Deadline& deadline,
-                   ConvexHull& hull) {
-  constexpr int k_rounds = 6;
-  for (int round = 1;; ++round) {
-    if (deadline.has_passed()) {
-      hull.boundary = std::move(points);
-      hull.loss = std::numeric_limits<double>::infinity();
-      return;
-    }
-    const HullLoss loss = hull_loss(hull, points);
-    points = joined(loss.outside, hull.vertices);
-    if (points.size() <= most) {
-      rebuild(points, hull);
-      hull.boundary = hull.vertices;
-      return;
-    }
-    const std::vector<Double3> wider = joined(loss.farthest, hull.vertices);
-    if (wider.size() > most || wider.size() == hull.vertices.size() || round == k_rounds) {
-      hull.boundary = std::move(points);
-      hull.loss = loss.distance;
-      return;
-    }
-    rebuild(wider, hull);
-  }
+  if (exact.outside.empty()) return;
+  for (const std::uint32_t i : exact.outside) hull.boundary.push_back(points[i]);
+  hull.loss = options.deadline.has_passed() ? std::numeric_limits<double>::infinity()
+                                            : std::max(hull_loss(hull, hull.boundary),
+                                                       0x1p-52);  // they are outside, if only by a rounding
+  hull.boundary.insert(hull.boundary.end(), hull.vertices.begin(), hull.vertices.end());
+  std::sort(hull.boundary.begin(), hull.boundary.end(), lexicographically_less);
 }
 
 // The first of the caller's points at each vertex. Most points are sorted out by one bit of a table.
@@ -224,16 +185,13 @@ ConvexHull convex_hull(const PointCloud& cloud, const HullOptions& options) {
   ConvexHull hull;
   hull.frame = cloud.frame;
   hull.box = cloud.box;
-  const std::size_t most = affordable(options);
-  HullCandidates candidates = hull_candidates(cloud.points, most);
-  find_dimension(candidates.all, hull);
-  if (hull.dimension == 0) hull.vertices = {candidates.all.front()};
-  if (hull.dimension == 1) hull_of_line(candidates.all, hull);
-  if (hull.dimension == 2) hull_of_plane(candidates.all, hull);
-  if (hull.dimension == 3) hull_of_space(candidates.chosen, hull);
-  hull.boundary = hull.vertices;
-  if (hull.dimension == 3 && candidates.chosen.size() < candidates.all.size())
-    settle_kernel(std::move(candidates.all), most, options.deadline, hull);
+  const std::vector<Double3> candidates = hull_candidates(cloud.points);
+  find_dimension(candidates, hull);
+  if (hull.dimension == 0) hull.vertices = {candidates.front()};
+  if (hull.dimension == 1) hull_of_line(candidates, hull);
+  if (hull.dimension == 2) hull_of_plane(candidates, hull);
+  if (hull.dimension == 3) hull_of_space(candidates, options, hull);
+  if (hull.boundary.empty()) hull.boundary = hull.vertices;
   find_indices(cloud.points, hull);
   return hull;
 }

@@ -1,11 +1,10 @@
 // convex_hull: the corners of a point cloud, which are all that a bounding volume depends on; and the frame
 // of the line or plane that a flat cloud lies in.
 //
-// Interior points are dropped by a test of constant cost before the exact hull is built (CGAL, exact
-// predicates). Where more points than `max_candidates` survive (a sphere of points: all are corners), the
-// hull is that of a kernel: a subset chosen direction by direction. If few points are outside that, they join
-// it; else every point is within `loss` of it. Volumes are then searched on `vertices` and grown over
-// `boundary`, and lower bounds found on `vertices` hold for all points, because they are some of them.
+// Interior points are dropped by a test of constant cost before the exact hull is built. Where it has more
+// corners than `max_corners` (a sphere of points: all are corners), it is that of a kernel, of the corners
+// that reach farthest: every point is within `loss` of it. Volumes are then searched on `vertices` and grown
+// over `boundary`, and lower bounds found on `vertices` hold for all points, because they are some of them.
 #pragma once
 
 #include "lib/analysis/hull/deadline.h"
@@ -48,12 +47,12 @@ struct ConvexHull {
   DoubleBox box;  // of all points
 };
 
-inline constexpr std::size_t k_least_candidates = 1000;  // some 10 ms
+inline constexpr std::size_t k_least_corners = 1000;  // some 10 ms
 
 struct HullOptions {
-  std::size_t max_candidates = 10'000;  // more than these give a kernel of at most as many
-  // The kernel is so small that the hull is likely to be there by then, though not below k_least_candidates:
-  // passes over all points and that much are not cut short.
+  std::size_t max_corners = 10'000;  // of more than these the hull is a kernel's
+  // Then it is a kernel of the corners that were found by then, at least k_least_corners: passes over all
+  // points and that much are not cut short.
   Deadline deadline = {};
 };
 

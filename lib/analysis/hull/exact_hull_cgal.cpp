@@ -1,78 +1,36 @@
 #include "lib/analysis/hull/exact_hull.h"
-#include "lib/analysis/hull/point_cloud.h"
+#include "lib/analysis/hull/quickhull.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/convex_hull_3.h>
 
 namespace copse {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Polyhedron = CGAL::Surface_mesh<Kernel::Point_3>;
-
-std::uint32_t index_of(const Kernel::Point_3& p, std::span<const Double3> points) {
-  const Double3 q{p.x(), p.y(), p.z()};
-  const auto at = std::lower_bound(points.begin(), points.end(), q, lexicographically_less);
-  return static_cast<std::uint32_t>(at - points.begin());
-}
 
 using Face = std::array<std::uint32_t, 3>;
-
-// CGAL's hull as triangles of points. Which triangles a flat facet is cut into, and whether points within it
-// or on its edges are among them, depends on where in memory CGAL's elements lie.
-struct Triangulation {
-  std::vector<Face> faces;
-  std::vector<Face> neighbours;  // of each face, across its three edges
-};
-
-Triangulation triangulated_hull(std::span<const Double3> points, const std::vector<Kernel::Point_3>& copies) {
-  Polyhedron polyhedron;
-  CGAL::convex_hull_3(copies.begin(), copies.end(), polyhedron);
-  std::vector<std::uint32_t> point_of(polyhedron.number_of_vertices());
-  for (const auto v : polyhedron.vertices()) point_of[v] = index_of(polyhedron.point(v), points);
-  Triangulation out;
-  for (const auto f : polyhedron.faces()) {
-    Face face{}, around{};
-    auto h = polyhedron.halfedge(f);
-    for (std::size_t i = 0; i < 3; ++i, h = polyhedron.next(h)) {
-      face[i] = point_of[polyhedron.target(h)];
-      around[i] = polyhedron.face(polyhedron.opposite(h));
-    }
-    out.faces.push_back(face);
-    out.neighbours.push_back(around);
-  }
-  return out;
-}
 
 // The facets of the hull: what of its triangles lies in one plane.
 class Facets {
  public:
-  Facets(const std::vector<Kernel::Point_3>& points, Triangulation hull)
-      : points_(points),
-        faces_(std::move(hull.faces)),
-        neighbours_(std::move(hull.neighbours)),
-        group_(faces_.size()) {
+  Facets(const std::vector<Kernel::Point_3>& points, HullTriangles hull)
+      : points_(points), faces_(std::move(hull.faces)), group_(faces_.size()) {
     std::iota(group_.begin(), group_.end(), 0u);
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-      if (is_flat(f)) continue;
-      for (const std::uint32_t g : neighbours_[f]) {
-        if (!is_flat(g)) join(f, g);
+      for (const std::uint32_t g : hull.neighbours[f]) {
+        if (f < g) join(f, g);
       }
     }
-    join_across_flat_triangles();
   }
 
   // The corners of every facet, counter-clockwise from outside, the least first: no more than they must be.
   std::vector<std::vector<std::uint32_t>> polygons() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> members;
-    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-      if (!is_flat(f)) members.push_back({root(f), f});
-    }
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) members.push_back({root(f), f});
     std::sort(members.begin(), members.end());
     std::vector<std::vector<std::uint32_t>> out;
     for (std::size_t i = 0; i < members.size();) {
@@ -87,9 +45,6 @@ class Facets {
   }
 
  private:
-  bool is_flat(std::uint32_t f) const {
-    return CGAL::collinear(points_[faces_[f][0]], points_[faces_[f][1]], points_[faces_[f][2]]);
-  }
   std::uint32_t root(std::uint32_t f) {
     while (group_[f] != f) f = group_[f] = group_[group_[f]];
     return f;
@@ -101,27 +56,6 @@ class Facets {
     }
     const std::uint32_t x = root(f), y = root(g);
     group_[std::max(x, y)] = std::min(x, y);
-  }
-
-  // A triangle of collinear points has no plane of its own: those around it may have one in common.
-  void join_across_flat_triangles() {
-    std::vector<char> seen(faces_.size(), 0);
-    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-      if (seen[f] != 0 || !is_flat(f)) continue;
-      std::vector<std::uint32_t> flat{f}, around;
-      seen[f] = 1;
-      for (std::size_t i = 0; i < flat.size(); ++i) {
-        for (const std::uint32_t g : neighbours_[flat[i]]) {
-          if (!is_flat(g))
-            around.push_back(g);
-          else if (seen[g] == 0)
-            seen[g] = 1, flat.push_back(g);
-        }
-      }
-      for (const std::uint32_t a : around) {
-        for (const std::uint32_t b : around) join(a, b);
-      }
-    }
   }
 
   // Andrew's monotone chain in the plane of the two axes across which the facet is seen best. What is
@@ -176,19 +110,20 @@ class Facets {
   }
 
   const std::vector<Kernel::Point_3>& points_;
-  std::vector<Face> faces_, neighbours_;
+  std::vector<Face> faces_;
   std::vector<std::uint32_t> group_;
 };
 
 }  // namespace
 
-ExactHull exact_hull(std::span<const Double3> points) {
+ExactHull exact_hull(std::span<const Double3> points, const QuickhullLimits& limits) {
   std::vector<Kernel::Point_3> copies;
   copies.reserve(points.size());
   for (const Double3& p : points) copies.emplace_back(p.x, p.y, p.z);
-  Triangulation triangles = triangulated_hull(points, copies);
+  HullTriangles triangles = quickhull(points, limits);
   ExactHull hull;
-  if (triangles.faces.size() < 4) return hull;
+  if (triangles.faces.empty()) return hull;
+  hull.outside = std::move(triangles.outside);
   const auto polygons = Facets(copies, std::move(triangles)).polygons();
   for (const auto& polygon : polygons)
     hull.vertices.insert(hull.vertices.end(), polygon.begin(), polygon.end());

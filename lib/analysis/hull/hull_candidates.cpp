@@ -7,6 +7,7 @@
 #include "lib/formats/random.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -16,11 +17,13 @@ namespace {
 
 constexpr std::size_t k_few = 4000;     // points for which the hull itself is quicker
 constexpr std::size_t k_sample = 1024;  // points, about
-constexpr int k_directions = 96;        // along which the sample's extremes are taken
-constexpr int k_cells = 16;             // along a side of the map: 6 * 16^2 cells
-constexpr std::size_t k_worth = 2000;   // survivors for which a second pass pays
-constexpr double k_thin = 1e-10;        // of the size: thinner clouds are not filtered
-constexpr double k_margin = 1e-9;       // of the gauge, and more for thin clouds: rounding
+constexpr std::size_t k_least_sample = 64;
+constexpr int k_directions = 96;       // along which the sample's extremes are taken
+constexpr int k_cells = 16;            // along a side of the map: 6 * 16^2 cells
+constexpr int k_coarse = 8;            // of the map from which the second polytope is taken
+constexpr std::size_t k_worth = 2000;  // survivors for which a second pass pays
+constexpr double k_thin = 4e-14;       // of the size: thinner clouds are not filtered
+constexpr double k_margin = 1e-9;      // of the gauge, and more for thin clouds: rounding
 
 using Points = std::vector<Double3>;
 
@@ -57,6 +60,43 @@ Fattening fattening_of(const Points& sample) {
   f.centre = f.axes[0] * middle.x + f.axes[1] * middle.y + f.axes[2] * middle.z;
   f.half = box.extent() * 0.5;
   return f;
+}
+
+double thickness(const Fattening& fat) {
+  return std::min({fat.half.x, fat.half.y, fat.half.z});
+}
+
+// The first and the last of all points along each axis; of equals the first in lexicographic order.
+void add_extremes(std::span<const Double3> points, const Axes& axes, Points& sample) {
+  std::array<Double3, 6> extremes;
+  extremes.fill(points.front());
+  std::array<double, 6> most;
+  most.fill(-std::numeric_limits<double>::infinity());
+  for (const Double3& p : points) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double along = dot(p, axes[k]);
+      for (std::size_t side = 2 * k; side < 2 * k + 2; ++side) {
+        const double t = side % 2 == 0 ? along : -along;
+        if (t > most[side] || (t == most[side] && lexicographically_less(p, extremes[side])))
+          most[side] = t, extremes[side] = p;
+      }
+    }
+  }
+  sample.insert(sample.end(), extremes.begin(), extremes.end());
+  sample = distinct_points(sample);
+}
+
+// What the sample has missed may be all that makes the cloud thick: a mast on flat ground, a point far from a
+// line. What lies farthest out of the sample's frame joins it, and once more out of what that makes of it.
+Fattening fatten(std::span<const Double3> points, Points& sample) {
+  constexpr int k_most = 3;
+  Fattening fat = fattening_of(sample);
+  for (int round = 0; round < k_most; ++round) {
+    add_extremes(points, fat.axes, sample);
+    fat = fattening_of(sample);
+    if (thickness(fat) > k_thin) break;
+  }
+  return fat;
 }
 
 // A direction's place in the map: the side of a cube that it meets, and where.
@@ -97,7 +137,7 @@ class Gauge {
       const Double3 normal = cross(b - a, c - a);
       const double l = length(normal), height = dot(normal, a);
       if (l == 0) continue;
-      if (height <= 1e-3 * l) return;
+      if (height <= 1e-5 * l) return;
       facets_.push_back(normal / height);
     }
     for (int side = 0; side < 6; ++side) list_facets(side);
@@ -107,13 +147,12 @@ class Gauge {
 
   bool valid() const { return valid_; }
 
-  // Below 1 inside. `cell` is the place of x in a map of k_cells, `fine` in one of `fine_cells`.
-  double at(const Double3& x, int fine_cells, int& fine) const {
-    const Double3 d = x - centre_;
+  const Double3& centre() const { return centre_; }
+
+  // Of a direction from the centre: below 1 inside.
+  double at(const Double3& d) const {
     if (d == Double3{}) return 0;
-    const Place place = place_of(d);
-    fine = place.cell(fine_cells);
-    const int cell = place.cell(k_cells);
+    const int cell = place_of(d).cell(k_cells);
     double most = 0;
     for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i)
       most = std::max(most, dot(facets_[lists_[i]], d));
@@ -170,10 +209,10 @@ Points extremes_of(const Points& points) {
 
 // The farthest point of each cell of a map by its gauge; of equals the first in lexicographic order.
 struct Farthest {
-  explicit Farthest(int cells) : gauge(6 * cells * cells, -1), point(gauge.size()) {}
-  std::vector<double> gauge;
-  Points point;
-  void offer(int cell, double g, const Double3& p) {
+  std::vector<double> gauge = std::vector<double>(6 * k_coarse * k_coarse, -1);
+  Points point = Points(gauge.size());
+  void offer(const Double3& direction, double g, const Double3& p) {
+    const int cell = place_of(direction).cell(k_coarse);
     if (g > gauge[cell] || (g == gauge[cell] && lexicographically_less(p, point[cell])))
       gauge[cell] = g, point[cell] = p;
   }
@@ -188,14 +227,14 @@ struct Farthest {
 
 // What is not inside, and the farthest of it in each direction.
 Points filtered(std::span<const Double3> points, const Fattening& fat, const Gauge& gauge, double margin,
-                Farthest& far, int cells) {
+                Farthest& far) {
   Points kept;
   for (const Double3& p : points) {
-    int cell = 0;
-    const double g = gauge.at(fat.in(p), cells, cell);
+    const Double3 direction = fat.in(p)-gauge.centre();
+    const double g = gauge.at(direction);
     if (g < 1 - margin) continue;
     kept.push_back(p);
-    far.offer(cell, g, p);
+    far.offer(direction, g, p);
   }
   return kept;
 }
@@ -208,37 +247,29 @@ Points in_fat(const Points& points, const Fattening& fat) {
 
 }  // namespace
 
-HullCandidates hull_candidates(std::span<const Double3> points, std::size_t limit) {
-  const auto unfiltered = [&] {
-    HullCandidates c{distinct_points(points), {}};
-    c.chosen = c.all;
-    return c;
-  };
-  if (points.size() <= std::min(k_few, limit)) return unfiltered();
-  const Points sample = sample_of(points);
-  if (sample.size() < 64) return unfiltered();
-  const Fattening fat = fattening_of(sample);
-  const double thin = std::min({fat.half.x, fat.half.y, fat.half.z});
-  if (!(thin > k_thin)) return unfiltered();
-  const double margin = k_margin + 1e-14 / thin;
-
+std::vector<Double3> hull_candidates(std::span<const Double3> points) {
+  if (points.size() <= k_few) return distinct_points(points);
+  Points sample = sample_of(points);
+  if (sample.size() < k_least_sample) {  // most points are others again
+    const Points distinct = distinct_points(points);
+    if (distinct.size() < points.size() / 2) return hull_candidates(distinct);
+  }
+  const Fattening fat = fatten(points, sample);
+  const double thin = thickness(fat);
+  if (!(thin > k_thin)) return distinct_points(points);
   const Points inner = extremes_of(in_fat(sample, fat));
   const Gauge first(inner);
-  if (!first.valid()) return unfiltered();
-  Farthest outer(k_cells / 2);
-  Points kept = filtered(points, fat, first, margin, outer, k_cells / 2);
-  const int fine = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(limit) / 6)));
-  Farthest finest(fine);
-  if (kept.size() > std::min(k_worth, limit)) {
+  if (!first.valid()) return distinct_points(points);
+  const double margin = k_margin + 1e-14 / thin;
+  Farthest outer, ignored;
+  Points kept = filtered(points, fat, first, margin, outer);
+  if (kept.size() > k_worth) {
     Points wider = in_fat(outer.points(), fat);
     wider.insert(wider.end(), inner.begin(), inner.end());
     const Gauge second(wider);
-    if (second.valid()) kept = filtered(kept, fat, second, margin, finest, fine);
+    if (second.valid()) kept = filtered(kept, fat, second, margin, ignored);
   }
-  HullCandidates found{distinct_points(kept), {}};
-  const bool many = found.all.size() > limit && finest.points().size() > 3;
-  found.chosen = many ? distinct_points(finest.points()) : found.all;
-  return found;
+  return distinct_points(kept);
 }
 
 }  // namespace copse

@@ -128,14 +128,12 @@ Facets facets_of(const ConvexHull& hull, const Double3& middle) {
 
 }  // namespace
 
-HullLoss hull_loss(const ConvexHull& hull, std::span<const Double3> points) {
+double hull_loss(const ConvexHull& hull, std::span<const Double3> points) {
   Double3 middle;
   for (const Double3& v : hull.vertices) middle += v;
   middle = middle / static_cast<double>(hull.vertices.size());
   const Facets facets = facets_of(hull, middle);
-  HullLoss loss;
-  std::vector<double> most(facets.gauge.size(), 1);
-  std::vector<Double3> farthest(facets.gauge.size());
+  double loss = 0;
   std::uint32_t at = 0;
   for (const Double3& p : points) {
     const Double3 d = p - middle;
@@ -145,14 +143,7 @@ HullLoss hull_loss(const ConvexHull& hull, std::span<const Double3> points) {
       if (next == at) break;
       at = next;
     }
-    // p / gauge is in the hull.
-    if (gauge > 1) loss.distance = std::max(loss.distance, (1 - 1 / gauge) * length(d));
-    if (gauge <= 1 - k_rounding) continue;
-    loss.outside.push_back(p);
-    if (gauge > most[at]) most[at] = gauge, farthest[at] = p;
-  }
-  for (std::size_t f = 0; f < most.size(); ++f) {
-    if (most[f] > 1) loss.farthest.push_back(farthest[f]);
+    if (gauge > 1) loss = std::max(loss, (1 - 1 / gauge) * length(d));  // p / gauge is in the hull
   }
   return loss;
 }
