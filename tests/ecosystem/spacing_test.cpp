@@ -78,14 +78,22 @@ TEST(Spacing, ClearanceAndClosingAgreeWithTestingEveryDisc) {
     const Patch p{x, z, random.uniform(0, 2), random.uniform(0, 2)};
     const double radius = random.uniform(0.1, 2);
     bool one_is_in_the_way = false;
+    std::size_t some = 0;
     for (const Disc& d : inside) {
+      const double dx = d.x - std::clamp(d.x, p.x, p.x + p.width),
+                   dz = d.z - std::clamp(d.z, p.z, p.z + p.depth);
+      some += std::hypot(dx, dz) < d.radius + radius;
       double farthest = 0;
       for (const double cx : {p.x, p.x + p.width})
         for (const double cz : {p.z, p.z + p.depth})
           farthest = std::max(farthest, std::hypot(cx - d.x, cz - d.z));
       one_is_in_the_way |= farthest < d.radius + radius;
     }
-    EXPECT_EQ(spacing.closes(p, radius), one_is_in_the_way);
+    std::vector<Disc> near;
+    EXPECT_EQ(spacing.closes(p, radius, 5, near), one_is_in_the_way);
+    if (!one_is_in_the_way) {
+      EXPECT_EQ(near.size(), std::min<std::size_t>(some, 6));
+    }
     closed += one_is_in_the_way;
   }
   EXPECT_GT(closed, 300);

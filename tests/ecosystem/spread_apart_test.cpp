@@ -96,15 +96,18 @@ TEST(SpreadApart, StopsOnlyWhenNoGapIsLeft) {
   }
 }
 
+// However little wider it is than the disc.
 TEST(SpreadApart, FindsTheOnlyGap) {
   Spacing full;
   for (int r = 0; r < 32; ++r)
     for (int c = 0; c < 32; ++c)
       if (r != 20 || c != 11) full.add({2.0 * c + 1, 2.0 * r + 1, 1});
-  const Outcome o = spread({.count = 1, .least = 0.9, .most = 0.9}, full);
-  ASSERT_EQ(o.discs.size(), 1u);
-  EXPECT_NEAR(o.discs[0].x, 23, 0.2);
-  EXPECT_NEAR(o.discs[0].z, 41, 0.2);
+  for (const double narrow : {0.1, 1e-3, 1e-6}) {
+    const Outcome o = spread({.count = 1, .least = 1 - narrow, .most = 1 - narrow}, full);
+    ASSERT_EQ(o.discs.size(), 1u) << narrow;
+    EXPECT_NEAR(o.discs[0].x, 23, 2 * narrow);
+    EXPECT_NEAR(o.discs[0].z, 41, 2 * narrow);
+  }
 }
 
 // Three quarters of the trees for the half that is dense, at every fullness that leaves it room at random.
@@ -156,6 +159,18 @@ TEST(SpreadApart, WorkIsBoundedWhereNothingFitsAndWhereLittleIsAllowed) {
   const Outcome o = spread({.count = 5000, .least = 0.02, .most = 0.02, .rules = {.forbidden = &forbidden}});
   EXPECT_GT(o.discs.size(), 350u);  // of 0.547 / (pi 0.02^2) = 435 and those on the border
   for (const Disc& d : o.discs) EXPECT_LT(pixel_at(forbidden, k_area, d.x, d.z), 0.5);
+}
+
+// There are more of them round a patch than are looked at together.
+TEST(SpreadApart, FindsTheGapsAmongManyThatAreMuchSmaller) {
+  Spacing seedlings;
+  Random random(8);
+  for (int i = 0; i < 10000; ++i) {
+    const double x = random.uniform(0, 64), z = random.uniform(0, 64);
+    if (std::hypot(x - 40, z - 20) > 3.01) seedlings.add({x, z, 0.005});
+  }
+  EXPECT_EQ(spread({.count = 50, .least = 3, .most = 3}, seedlings).discs.size(), 1u);
+  EXPECT_GT(spread({.count = 4000, .least = 0.5, .most = 0.5}, seedlings).missing, 0u);
 }
 
 TEST(SpreadApart, ProgressGoesFromNothingToAllAndNeverBack) {

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <unordered_map>
 #include <vector>
 
 namespace copse {
@@ -29,8 +28,9 @@ class Spacing {
   bool is_free(const Disc& disc) const;
   // From (x, z) to the nearest border of a disc, negative inside of one; `most` when that is farther.
   double clearance(double x, double z, double most) const;
-  // Whether a single disc is in the way of any other of `radius` whose centre is in the patch.
-  bool closes(const Patch& patch, double radius) const;
+  // Whether a single disc is in the way of any other of `radius` whose centre is in the patch. If not, those
+  // that are in the way of some of them are added to `near`; of more than `most` one more than that.
+  bool closes(const Patch& patch, double radius, std::size_t most, std::vector<Disc>& near) const;
   void add(const Disc& disc);
   std::size_t size() const { return count_; }
 
@@ -38,9 +38,34 @@ class Spacing {
   // Whether `test` holds of any disc that one of `radius` here may overlap, and perhaps of some beyond.
   template <class Test>
   bool any_near(double x, double z, double radius, const Test& test) const;
-  struct Level {
-    double bucket = 1;                                             // side: the largest diameter of the level
-    std::unordered_map<std::uint64_t, std::vector<Disc>> buckets;  // by key
+
+  // A chain of discs for every bucket that has any, in a table with open addressing.
+  class Level {
+   public:
+    explicit Level(double bucket_side) : side(bucket_side) {}
+    const double side;  // of a bucket: the largest diameter of the level
+    std::size_t buckets() const { return filled_; }
+    void add(const Disc& disc, std::uint64_t key);
+    template <class Test>
+    bool any_in(std::uint64_t key, const Test& test) const;
+    template <class Test>
+    bool any(const Test& test) const;
+
+   private:
+    struct Slot {
+      std::uint64_t key = 0;
+      std::uint32_t first = k_end;  // of its chain; k_end: the slot is empty
+    };
+    struct Link {
+      Disc disc;
+      std::uint32_t next = k_end;
+    };
+    static constexpr std::uint32_t k_end = ~std::uint32_t{0};
+    std::size_t slot_of(std::uint64_t key) const;
+    void grow();
+    std::vector<Slot> slots_ = std::vector<Slot>(16);  // a power of two, half empty
+    std::vector<Link> links_;
+    std::size_t filled_ = 0;
   };
   std::map<int, Level> levels_;  // by the exponent of the radius
   std::size_t count_ = 0;

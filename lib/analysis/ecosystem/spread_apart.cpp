@@ -1,19 +1,24 @@
 #include "lib/analysis/ecosystem/spread_apart.h"
 
+#include "lib/analysis/ecosystem/disc_cover.h"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace copse {
 namespace {
 
-constexpr int k_tries_in_piece = 30, k_darts = 4;
+constexpr int k_tries_in_piece = 8, k_darts = 4;
 // So many in a row that find no place in their own piece: what is left goes to the search for gaps at once.
-constexpr int k_failures_in_a_row = 256;
-constexpr std::uint64_t k_group = 32;  // pieces
-constexpr double k_finest = 0.125;     // of the radius
-constexpr int k_barren = 6;            // halvings of a patch in which no dart hits ground that is allowed
+constexpr int k_failures_in_a_row = 64;
+constexpr std::uint64_t k_group = 32;    // pieces
+constexpr double k_finest = 0.125;       // of the radius
+// Discs round a patch that are looked at together, and round one that is too small for darts.
+constexpr std::size_t k_most_near = 24, k_most_at_last = 256;
+constexpr int k_barren = 6;              // halvings of a patch in which no dart hits ground that is allowed
 
 // What is in the way of a disc: others, and feet.
 class Room {
@@ -27,8 +32,19 @@ class Room {
   bool is_free(const Disc& d) const {
     return discs_.is_free(d) && (!any_feet_ || feet_.is_free({d.x, d.z, d.radius - foot_}));
   }
-  bool is_closed(const Patch& p, double radius) const {
-    return discs_.closes(p, radius) || (any_feet_ && feet_.closes(p, radius - foot_));
+  // Whether no disc of `radius` can stand in the patch. Among many much smaller ones it may be that it is not
+  // told; then it is of the patch's parts.
+  bool is_closed(const Patch& p, double radius, std::size_t most = k_most_near) {
+    near_.clear();
+    if (discs_.closes(p, radius, most, near_)) return true;
+    const std::size_t discs = near_.size();
+    if (any_feet_ && feet_.closes(p, radius - foot_, most, near_)) return true;
+    for (std::size_t i = discs; i < near_.size(); ++i) near_[i].radius = 0;
+    return near_.size() <= most && is_covered(p, near_, radius);
+  }
+  // A place in a gap of the patch, as is_closed has found it.
+  std::optional<GroundPlace> opening(const Patch& p, double radius) const {
+    return open_middle(p, near_, radius);
   }
   // The largest radius that is free here, at most `most`.
   double clearance(const GroundPlace& at, double most) const {
@@ -42,6 +58,7 @@ class Room {
   Spacing feet_;
   double foot_;
   bool any_feet_;
+  std::vector<Disc> near_;  // the patch that was asked about last
 };
 
 // Discs that wait for a gap, by radius; by place their radii are not known before, and all are 0.
@@ -114,6 +131,7 @@ class Waiting {
 struct Gap {
   Patch patch;
   int barren = 0;  // times that it was halved since a dart hit ground that is allowed
+  double closed_from = std::numeric_limits<double>::infinity();  // to discs of this radius or more
 };
 
 // Some pieces side by side: who waits there, and the ground that may still have gaps. Cells that nobody has
@@ -239,7 +257,9 @@ class Apart {
   void search(Group& g, Random random) {
     if (g.waiting.empty() || (g.gaps.empty() && g.cells.empty())) return;
     g.waiting.open();
-    std::vector<Gap> now = std::exchange(g.gaps, {}), next;
+    std::vector<Gap> now, next;
+    for (const Gap& gap : std::exchange(g.gaps, {}))
+      (radius_in(gap.patch, g) < gap.closed_from ? now : g.gaps).push_back(gap);
     for (const auto& [first, end] : std::exchange(g.cells, {}))
       for (std::size_t c = first; c < end; ++c) now.push_back({patch_of(spreader_.cells()[c])});
     while (!now.empty()) {
@@ -258,9 +278,10 @@ class Apart {
       return;
     }
     const Patch& p = gap.patch;
-    const double least = wanted_.least(p), here = std::max(least, g.waiting.smallest().radius);
-    if (room_.is_closed(p, least)) return;
-    if (here > least && room_.is_closed(p, here)) {
+    const double least = wanted_.least(p), here = radius_in(p, g);
+    if (room_.is_closed(p, here)) {
+      if (here == least || room_.is_closed(p, least)) return;
+      gap.closed_from = here;
       g.gaps.push_back(gap);
       return;
     }
@@ -268,10 +289,19 @@ class Apart {
     for (int n = 0; n < k_darts && !g.waiting.empty(); ++n)
       if (throw_dart({p.x + p.width * random.uniform(), p.z + p.depth * random.uniform()}, g)) gap.barren = 0;
     if (gap.barren == k_barren) return;
-    if (std::max(p.width, p.depth) > k_finest * here)
+    if (std::max(p.width, p.depth) > k_finest * here) {
       halve(gap, next);
-    else if (here > least)
-      g.gaps.push_back(gap);
+      return;
+    }
+    // Too small for darts.
+    if (!g.waiting.empty() && !room_.is_closed(p, here, k_most_at_last))
+      if (const auto place = room_.opening(p, here)) throw_dart(*place, g);
+    if (here > least) g.gaps.push_back(gap);
+  }
+
+  // No disc that waits is smaller in this patch.
+  double radius_in(const Patch& p, const Group& g) const {
+    return std::max(wanted_.least(p), g.waiting.smallest().radius);
   }
 
   static void halve(Gap gap, std::vector<Gap>& out) {

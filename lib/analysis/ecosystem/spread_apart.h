@@ -2,14 +2,16 @@
 // maximal, and follows the density as long as there is room.
 //
 // Every disc first tries its own piece of the field's mass (spread.h), in a random order. For those that find
-// none there, gaps are searched: patches of ground that no single disc closes are thrown darts at and halved,
-// first those of 32 pieces side by side, then of twice as many, up to the whole field. So a disc leaves its
-// part of the field only when that is full, and one that is left over found no gap anywhere. A gap that is
-// narrower than an eighth of the disc's radius, seen as the places where its centre may be, can be missed,
-// and so can ground of which the rules allow less than a part in some hundred.
+// none there, gaps are searched: patches of ground that the discs together do not cover (disc_cover.h), grown
+// by the smallest radius that waits, are thrown darts at and halved, first those of 32 pieces side by side,
+// then of twice as many, up to the whole field. So a disc leaves its part of the field only when that is full,
+// and one that is left over found no gap anywhere. Ground that is full is known to be so and not looked at
+// again. Where a patch is too small for darts a disc goes into the middle of its opening: what can be missed
+// is one of several gaps within an eighth of the disc's radius, a gap there of which the rules forbid the
+// middle, and ground of which they allow less than a part in some hundred.
 //
-// Source: the patches are those of Ebeida, Mitchell, Patney, Davidson, Owens, "A simple algorithm for maximal
-// Poisson-disk sampling in high dimensions" (Eurographics 2012). O((discs + cells) log discs).
+// Source: patches and darts are those of Ebeida, Mitchell, Patney, Davidson, Owens, "A simple algorithm for
+// maximal Poisson-disk sampling in high dimensions" (Eurographics 2012). O((discs + cells) log discs).
 #pragma once
 
 #include "lib/analysis/ecosystem/density_field.h"
