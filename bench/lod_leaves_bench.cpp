@@ -1,13 +1,15 @@
 // Leaves at a tenth, a fiftieth, ... of their triangles: what leaf collapse and its peers keep of them.
 //
 //   bench_lod_leaves [--views N] [--ratio R] [--quality fast|balanced|exact] [--no-peers] [--speed]
-//   [--projections] TREE...      .tree or .stree files that hold leaves
+//   [--errors] [--projections] TREE...      .tree or .stree files that hold leaves
 //
 // Each ratio of triangles at the size in pixels at which it would be shown; times are of all threads
 // together.
+#include "lib/analysis/lod/hausdorff_errors.h"
 #include "lib/analysis/lod/leaf_collapse.h"
 #include "lib/analysis/lod/lines_points.h"
 #include "lib/analysis/measure/lod_quality.h"
+#include "lib/analysis/measure/surface_distance.h"
 #include "lib/formats/import/image.h"
 #include "lib/formats/tree_file/tree_file.h"
 
@@ -71,6 +73,7 @@ struct Options {
   bool peers = true;
   bool speed = false;  // instead: triangles a second of every quality
   CollapseQuality quality = CollapseQuality::balanced;
+  bool errors = false;       // instead: each level's stored error beside the measured distance
   bool projections = false;  // instead: how wrong the estimates for lines and points are
 };
 
@@ -113,6 +116,31 @@ void speeds(const std::string& name, const Tree& tree, const DrawnMesh& source, 
   fmt::print(" {:8.3f}\n", rate([&] { meshopt(source, source.triangles.size() / 10, false); }));
 }
 
+// The state of a spectrum with no more triangles.
+std::uint32_t state_of(const Spectrum& spectrum, std::size_t triangles) {
+  std::uint32_t n = 0;
+  while (n < spectrum.steps() && spectrum.counts[n] > triangles) ++n;
+  return n;
+}
+
+// The stored error of a level, metres, beside the largest distance of points spread over full detail and over
+// the level to the other one; and what the errors of all steps cost, nanoseconds a triangle.
+void errors(const std::string& name, const DrawnMesh& source, const Spectrum& spectrum) {
+  const auto start = Clock::now();
+  const auto stored = hausdorff_errors(spectrum);
+  const double nanoseconds = 1e9 * seconds_since(start) / double(source.triangles.size());
+  const DrawnMesh full = drawn_state(spectrum, 0);
+  for (const double ratio : {0.5, 0.25, 0.1, 0.05, 0.02}) {
+    const std::uint32_t n =
+        state_of(spectrum, static_cast<std::size_t>(ratio * double(source.triangles.size())));
+    const SurfaceDistances d = surface_distance(full, drawn_state(spectrum, n), 100'000);
+    const double measured = std::max(d.from_level.max, d.from_source.max);
+    fmt::print("{:24} {:5.3f} {:7} {:8.4f} {:8.4f} {:8.4f} {:6.3f} {:8.0f}\n", name, ratio,
+               spectrum.counts[n], stored[n], d.from_source.max, d.from_level.max,
+               measured > 0 ? stored[n] / measured : 1.0, nanoseconds);
+  }
+}
+
 void bench(const std::filesystem::path& path, const Options& options) {
   const auto file = TreeFile::open(path);
   if (!file) return fmt::print("{}\n", to_line(file.error(), "bench"));
@@ -137,6 +165,7 @@ void bench(const std::filesystem::path& path, const Options& options) {
   const auto start = Clock::now();
   const Spectrum spectrum = collapse_spectrum(tree, looks, {.quality = options.quality});
   const double collapse_seconds = seconds_since(start);
+  if (options.errors) return errors(name, source, spectrum);
   const DrawnMesh full = drawn_state(spectrum, 0);
   for (const double ratio : {0.5, 0.25, 0.1, 0.05, 0.02}) {
     if (options.only > 0 && ratio != options.only) continue;
@@ -149,9 +178,8 @@ void bench(const std::filesystem::path& path, const Options& options) {
       const double s = seconds_since(begin);
       row(name, sloppy ? "sloppy" : "meshopt", ratio, judge.measure(level), s);
     }
-    std::uint32_t n = 0;
-    while (n < spectrum.steps() && spectrum.counts[n] > target) ++n;
-    row(name, "collapse", ratio, judge.measure(drawn_state(spectrum, n)), collapse_seconds);
+    row(name, "collapse", ratio, judge.measure(drawn_state(spectrum, state_of(spectrum, target))),
+        collapse_seconds);
   }
 }
 
@@ -173,6 +201,8 @@ int main(int argc, char** argv) {
       options.peers = false;
     else if (argument == "--speed")
       options.speed = true;
+    else if (argument == "--errors")
+      options.errors = true;
     else if (argument == "--projections")
       options.projections = true;
     else if (argument == "--quality" && i + 1 < argc)

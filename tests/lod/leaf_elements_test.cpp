@@ -34,34 +34,31 @@ TEST(LeafElements, AMergeReplacesItsNodesAndLeavesTheRestOfTheirPieces) {
   const LeafPieces pieces = leaf_pieces(LeafyTree{.leaves = 3}.make());
   LeafElements elements(pieces);
   const DrawnLeaf first = elements.drawn(0);
-  elements.merge(std::array<std::uint32_t, 2>{0, 2}, first, 0, k_none, 0.5);  // of two cards
-  elements.merge(std::array<std::uint32_t, 3>{0, 1, 3}, first, 0, k_none, 0.7);
+  elements.merge(std::array<std::uint32_t, 2>{0, 2}, first, 0, k_none);  // of two cards
+  elements.merge(std::array<std::uint32_t, 3>{0, 1, 3}, first, 0, k_none);
   const Spectrum s = elements.finish();
   ASSERT_EQ(s.steps(), 2u);
   EXPECT_EQ(s.counts[1], 5u);
   EXPECT_EQ(s.counts[2], 3u) << "one for two cards, and the card that was not touched";
-  EXPECT_EQ(s.errors[2], round_up(0.7));
 }
 
 TEST(LeafElements, WhatIsRemovedIsGoneAndComesBackWhenMergesAreShown) {
   const LeafPieces pieces = leaf_pieces(LeafyTree{.leaves = 4}.make());
   LeafElements elements(pieces);
   const DrawnLeaf first = elements.drawn(0), last = elements.drawn(7);
-  for (const std::uint32_t n : {1u, 2u, 3u}) elements.remove(std::span(&n, 1), 0.1);
-  elements.remove(std::array<std::uint32_t, 2>{6, 7}, 0.1);
+  for (const std::uint32_t n : {1u, 2u, 3u}) elements.remove(std::span(&n, 1));
+  elements.remove(std::array<std::uint32_t, 2>{6, 7});
   elements.hold({6, 7, 0, 1, 2, 3, 4, 5}, 3);
-  elements.merge(std::array<std::uint32_t, 3>{0, 1, 2}, first, 0, k_none, 0.5);
-  elements.merge(std::array<std::uint32_t, 3>{7, 4, 5}, last, 0, k_none, 0.3);
-  elements.merge(std::array<std::uint32_t, 2>{0, 3}, last, 0, k_none, 0.4);
+  elements.merge(std::array<std::uint32_t, 3>{0, 1, 2}, first, 0, k_none);
+  elements.merge(std::array<std::uint32_t, 3>{7, 4, 5}, last, 0, k_none);
+  elements.merge(std::array<std::uint32_t, 2>{0, 3}, last, 0, k_none);
   elements.show_at(4);  // not yet
   elements.show_at(3);
-  elements.merge(std::array<std::uint32_t, 2>{0, 7}, first, 0, k_none, 0.9);
+  elements.merge(std::array<std::uint32_t, 2>{0, 7}, first, 0, k_none);
   const Spectrum s = elements.finish();
   const std::vector<std::uint32_t> counts(s.counts.begin(), s.counts.end());
   EXPECT_EQ(std::vector(counts.begin(), counts.begin() + 5), (std::vector<std::uint32_t>{8, 7, 6, 5, 3}));
   EXPECT_EQ(counts.back(), 2u) << "6, which was removed, is back; 0 is what all others have become";
-  EXPECT_EQ(s.errors[4], round_up(0.1));
-  EXPECT_EQ(s.errors[5], round_up(0.5)) << "of all that was held";
   std::size_t last_leaves = 0;
   for (const SpectrumElement& e : s.elements) last_leaves += e.death == k_none;
   EXPECT_EQ(last_leaves, 2u);

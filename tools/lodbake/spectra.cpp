@@ -45,7 +45,7 @@ Spectrum trunk_spectrum(const Tree& tree, const Options& options, Context& conte
 
 Spectrum collapsed(const Tree& tree, const Looks& looks, const Options& options, Context& context) {
   CollapsedLumps lumps;
-  Spectrum s = collapse_spectrum(tree, looks, {.quality = options.quality}, &lumps);
+  Spectrum s = collapse_spectrum(tree, looks, {.quality = options.quality, .errors = false}, &lumps);
   if (lumps.lumps > 0)
     context.report().tables.push_back(
         {.name = "leaves by edges",

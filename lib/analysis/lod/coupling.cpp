@@ -1,5 +1,6 @@
 #include "lib/analysis/lod/coupling.h"
 
+#include "lib/analysis/lod/hausdorff_errors.h"
 #include "lib/analysis/lod/step_order.h"
 
 #include <algorithm>
@@ -64,6 +65,9 @@ class Coupler {
   // The spectra in their new order, with the schedule.
   void finish(LodSpectra& spectra) {
     if (!in_order()) spectra.leaves = order_.reordered(batches_);
+    // Other states than before are drawn on the way.
+    if (spectra.leaves.method == LodMethod::collapse && spectra.leaves.steps() > 0)
+      spectra.leaves.errors = hausdorff_errors(spectra.leaves);
     spectra.schedule.clear();
     for (const auto& [trunk, leaves] : knots_) spectra.schedule.push_back(level_at(spectra, trunk, leaves));
   }

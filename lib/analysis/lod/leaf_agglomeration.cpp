@@ -101,7 +101,6 @@ class Agglomeration {
  private:
   struct Node {
     std::uint32_t radius = k_none;
-    float displacement = 0;
     std::uint32_t drawn = k_none;  // in made_, once it has grown
     double area = 0;
   };
@@ -109,7 +108,7 @@ class Agglomeration {
   std::vector<QuickMerges::Leaf> left() {
     std::vector<QuickMerges::Leaf> out;
     for (const Leaf& l : alive_)
-      out.push_back({l.node, nodes_[l.node].radius, l.group, nodes_[l.node].displacement,
+      out.push_back({l.node, nodes_[l.node].radius, l.group,
                      nodes_[l.node].drawn == k_none ? elements_.drawn(l.node) : made_[nodes_[l.node].drawn]});
     return out;
   }
@@ -169,15 +168,13 @@ class Agglomeration {
     double shown = triangles_;
     std::vector<std::uint32_t> order;
     for (const Leaf& l : alive_) order.push_back(l.node);
-    double error = 0;
     std::vector<std::uint32_t> together;
     for (std::size_t i = 0; i < o.gone.size(); ++i) {
       const Leaf& leaf = alive_[o.gone[i].leaf];
-      if (o.gone[i].alone >= k_hidden) error = std::max(error, 0.5 * std::sqrt(double(leaf.area)));
       shown -= double(elements_.source(leaf.node).size()), together.push_back(leaf.node);
       if (i + 1 < o.gone.size() && o.step(i + 1) == o.step(i)) continue;
       std::sort(together.begin(), together.end());
-      elements_.remove(together, error), together.clear();
+      elements_.remove(together), together.clear();
     }
     elements_.hold(order, shown * Occlusion::k_shown);
   }
@@ -245,12 +242,11 @@ class Agglomeration {
       return 0;
     }
     const Double3 centre = leaf.centre();
-    h.displacement = std::max(h.displacement, displaced(guest, g, centre));
     h.radius = ancestors_.common(h.radius, g.radius);
     if (host.group != guest.group) host.group = k_none;
     const std::uint32_t nodes[] = {host.node, guest.node};
     const LeafPiece& piece = pieces_.list[elements_.piece(host.node)];
-    elements_.merge(nodes, leaf, piece.material, h.radius, h.displacement);
+    elements_.merge(nodes, leaf, piece.material, h.radius);
     const auto faces_of = [&](const Node& node, std::uint32_t n) {
       return node.drawn == k_none ? elements_.source(n).size() : made_[node.drawn].faces;
     };
@@ -346,14 +342,6 @@ class Agglomeration {
       open += field_.at(p).openness, seen += field_.exposure(p);
     }
     place(host, centre, area, open / (leaf.corners + 1), seen / (leaf.corners + 1));
-  }
-
-  static float displaced(const Leaf& guest, const Node& node, const Double3& to) {
-    const double alone = guest.area > 0 ? guest.sole / double(guest.area) : 0;
-    if (alone < k_hidden) return 0;
-    const Double3 d = to_double(guest.centre) - to;
-    const double moved = std::sqrt(alone) * (node.displacement + std::sqrt(dot(d, d)));
-    return static_cast<float>(std::max(moved, 0.5 * std::sqrt(double(guest.area))));
   }
 
   const LeafPieces& pieces_;

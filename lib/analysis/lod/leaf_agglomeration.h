@@ -25,7 +25,6 @@ namespace copse {
 struct QuickMerges {
   struct Leaf {
     std::uint32_t node, radius, group;
-    double displacement;  // metres
     DrawnLeaf drawn;
   };
   std::vector<Leaf> leaves;         // that are left, along a space-filling curve

@@ -1,6 +1,7 @@
 #include "lib/analysis/lod/leaf_collapse.h"
 
 #include "lib/analysis/lod/crown_field.h"
+#include "lib/analysis/lod/hausdorff_errors.h"
 #include "lib/analysis/lod/leaf_agglomeration.h"
 #include "lib/analysis/lod/leaf_elements.h"
 #include "lib/analysis/lod/leaf_matching.h"
@@ -33,7 +34,6 @@ constexpr double k_too_much = 1.08;                 // coverage at which closed 
 constexpr int k_check_views = 2;                    // seen from so many sides
 constexpr std::uint64_t k_check_turn = 1u << 20;
 constexpr double k_doubt = 8;       // pixels that the field's word counts before any picture is drawn
-constexpr double k_hidden = 0.02;   // of a leaf: if it covers no more alone, it may be anywhere
 constexpr double k_margin = 0.008;  // of the crown's width, out of its hull
 
 // What a quality spends.
@@ -80,7 +80,6 @@ struct Corners {
 struct Successor {
   Drawn drawn;
   std::uint32_t like = k_none;  // the node that it looks like
-  double displacement = 0;
   double cost = std::numeric_limits<double>::infinity();
 };
 
@@ -124,8 +123,7 @@ class Collapse {
     std::uint32_t radius = k_none, group = k_none;
     Patch patch;
     Drawn drawn;
-    double displacement = 0;  // metres, of what it stands for
-    bool core = false;        // took the area of leaves from everywhere
+    bool core = false;  // took the area of leaves from everywhere
   };
   struct Merge {
     std::vector<std::uint32_t> members;  // places in alive_: the host first
@@ -214,15 +212,14 @@ class Collapse {
                              .least = 1 + std::size_t(Occlusion::k_least * double(full_.triangles.size())),
                              .prior = prior});
     if (o.gone.empty()) return;
-    double triangles = 0, error = 0;
+    double triangles = 0;
     std::vector<std::uint32_t> together;
     for (std::size_t i = 0; i < o.gone.size(); ++i) {
       const std::uint32_t n = alive_[o.gone[i].leaf];
-      if (o.gone[i].alone >= k_hidden) error = std::max(error, 0.5 * std::sqrt(nodes_[n].drawn.area()));
       triangles += double(nodes_[n].drawn.triangles().size()), together.push_back(n);
       if (i + 1 < o.gone.size() && o.step(i + 1) == o.step(i)) continue;
       std::sort(together.begin(), together.end());
-      elements_.remove(together, error), together.clear();
+      elements_.remove(together), together.clear();
     }
     elements_.hold(alive_, (share() * double(full_.triangles.size()) - triangles) * Occlusion::k_shown);
     left_ = share() - triangles / double(full_.triangles.size());
@@ -279,7 +276,7 @@ class Collapse {
     for (QuickMerges::Leaf& l : merges.leaves) {
       Node& node = nodes_[l.node];
       node.patch = sums[l.node], node.radius = l.radius, node.group = l.group;
-      node.displacement = l.displacement, node.drawn = l.drawn;
+      node.drawn = l.drawn;
       alive_.push_back(l.node);
     }
   }
@@ -303,7 +300,7 @@ class Collapse {
     const std::vector<LeafViews::Count> counts = views_->look(viewed(alive_));
     weigh(views_->coverage());
     std::vector<MatchLeaf> leaves;
-    alone_.clear(), vanish_.clear();
+    vanish_.clear();
     for (std::size_t i = 0; i < alive_.size(); ++i) {
       const Node& n = nodes_[alive_[i]];
       const Patch& p = n.patch;
@@ -313,7 +310,6 @@ class Collapse {
       leaves.push_back({n.drawn.centre(), facing(p), p.area, covered,
                         covered * sure * (counts[i].sole + k_prior * open),
                         covered * sure * (0.5 * counts[i].seen + k_prior * seen), n.group});
-      alone_.push_back(std::min(leaves.back().sole / covered, 1.0));
       vanish_.push_back(counts[i].sole + options_.other * (0.5 * counts[i].seen - counts[i].sole));
     }
     weights_.room = room(counts);
@@ -438,7 +434,6 @@ class Collapse {
     if (gone.size() == 2) keep(match.guests.front());
     out.successor.cost += vanish;
     out.fits = out.successor.drawn.area() > 0.99 * area;
-    out.successor.displacement = displaced(out.members, out.successor);
     out.price = out.successor.cost / std::max(triangles - double(out.successor.drawn.faces), 0.5);
     return out;
   }
@@ -598,23 +593,6 @@ class Collapse {
     return out;
   }
 
-  // How far the ground that only these leaves cover is from what is drawn for them: what others cover too
-  // leaves no hole. No less than half of the size of a leaf that goes. Adds up from merge to merge.
-  double displaced(std::span<const std::uint32_t> members, const Successor& successor) const {
-    double worst = 0;
-    for (const std::uint32_t m : members) {
-      const Node& n = nodes_[alive_[m]];
-      if (m == successor.like) {
-        worst = std::max(worst, n.displacement);
-        continue;
-      }
-      if (alone_[m] < k_hidden) continue;
-      const double moved = n.displacement + distance(n.drawn.centre(), successor.drawn.centre());
-      worst = std::max({worst, std::sqrt(alone_[m]) * moved, 0.5 * std::sqrt(n.drawn.area())});
-    }
-    return worst;
-  }
-
   // One leaf after the other joins the first, which grows toward what it is to be in the end.
   void apply(const Merge& merge) {
     const std::uint32_t host = alive_[merge.members.front()];
@@ -636,8 +614,8 @@ class Collapse {
       node.radius = ancestors_.common(node.radius, nodes_[n].radius);
       if (nodes_[n].group != node.group) node.group = k_none;
     }
-    node.displacement = merge.successor.displacement, node.drawn = merge.successor.drawn;
-    elements_.merge(gone_, node.drawn, pieces_.list[node.piece].material, node.radius, node.displacement);
+    node.drawn = merge.successor.drawn;
+    elements_.merge(gone_, node.drawn, pieces_.list[node.piece].material, node.radius);
     nodes_[host] = node, alive_[merge.members.front()] = host;
   }
 
@@ -662,8 +640,7 @@ class Collapse {
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> gone_;
   std::vector<std::uint32_t> alive_;
-  // Of each alive leaf the share that no other covers; what it costs when it vanishes, pixels.
-  std::vector<double> alone_, vanish_;
+  std::vector<double> vanish_;  // what each alive leaf costs when it vanishes, pixels
 };
 
 }  // namespace
@@ -682,7 +659,9 @@ Spectrum collapse_spectrum(const Tree& tree, const Looks& looks, const LeafColla
                .triangles = lumps->triangles,
                .left = static_cast<std::uint32_t>(lumps->left.triangles.size()),
                .share = lumps->share};
-  return lumps ? joined(lumps->spectrum, collapse(lumps->left)) : collapse(pieces);
+  Spectrum s = lumps ? joined(lumps->spectrum, collapse(lumps->left)) : collapse(pieces);
+  if (options.errors) s.errors = hausdorff_errors(s);
+  return s;
 }
 
 }  // namespace copse

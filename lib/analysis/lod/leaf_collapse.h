@@ -28,6 +28,7 @@ struct LeafCollapseOptions {
   double emptiness = 2;   // how much reaching into empty space counts beside moving
   int window = 8;         // neighbours looked at on each side
   double other = 0.04;    // what a pixel counts that shows another leaf, beside one that is lost or gained
+  bool errors = true;     // are measured; not: for who measures them later, of the steps in another order
 };
 
 // Which of the leaves lost edges before they were merged (leaf_surfaces.h).
@@ -45,8 +46,8 @@ struct CollapsedLumps {
 // twigs hangs on the lowest radius that bears them all. While many leaves are hidden they
 // only leave, nothing grows, and the sum of areas falls with them, coverage does not (leaf_occlusion.h);
 // below 0.19 of the triangles the areas add up to what they were, as long as that fits
-// (`largest`). A step's error, metres: how far ground that
-// only one leaf covers is from what stands for that leaf, as estimated, the largest so far. Steps come in the
+// (`largest`). A step's error, metres: the distance of
+// what is drawn from full detail (hausdorff_errors.h). Steps come in the
 // order of what they change in the picture, as far as can be. `lumps`: told what lost edges. Deterministic.
 // O(n log n): each round draws what is left from 6 or 12 sides and takes away an eighth to a fourth of it.
 Spectrum collapse_spectrum(const Tree& tree, const Looks& looks = {}, const LeafCollapseOptions& options = {},

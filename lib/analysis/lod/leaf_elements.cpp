@@ -72,22 +72,21 @@ DrawnLeaf LeafElements::drawn(std::uint32_t node) {
 }
 
 void LeafElements::merge(std::span<const std::uint32_t> nodes, const DrawnLeaf& leaf, std::uint32_t material,
-                         std::uint32_t radius, double error) {
+                         std::uint32_t radius) {
   if (held_) {
-    error_ = std::max(error_, error);
     for (const std::uint32_t n : nodes) pending_of_[n] = k_gone;
     pending_of_[nodes.front()] = static_cast<std::uint32_t>(pending_.size());
     pending_.push_back({leaf, material, radius});
     return;
   }
-  builder_.step(error);
+  builder_.step(0);
   for (const std::uint32_t n : nodes) gone_[n] = 1;
   for (const std::uint32_t n : nodes) vanish(n);
   element_[nodes.front()] = put(leaf, material, radius);
 }
 
-void LeafElements::remove(std::span<const std::uint32_t> nodes, double error) {
-  builder_.step(error);
+void LeafElements::remove(std::span<const std::uint32_t> nodes) {
+  builder_.step(0);
   for (const std::uint32_t n : nodes) gone_[n] = removed_[n] = 1;
   for (const std::uint32_t n : nodes) vanish(n);
 }
@@ -99,13 +98,13 @@ void LeafElements::hold(std::vector<std::uint32_t> order, double triangles) {
 void LeafElements::show_at(double triangles) {
   if (!held_ || triangles > shown_) return;
   held_ = false;
-  builder_.step(error_);
+  builder_.step(0);
   for (const std::uint32_t n : order_) {
     const std::uint32_t p = pending_of_[n];
     if (p == k_none && removed_[n] == 0) continue;  // it is drawn as it was
     if (p == k_gone && removed_[n] != 0) continue;
     gone_[n] = 1;
-    if (p == k_gone) builder_.step(error_);  // the others are part of the step before: triangles only go
+    if (p == k_gone) builder_.step(0);  // the others are part of the step before: triangles only go
     if (removed_[n] == 0) vanish(n);
     if (p == k_gone) continue;
     const LeafPiece& piece = pieces_.list[piece_[n]];

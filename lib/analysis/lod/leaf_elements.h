@@ -71,18 +71,18 @@ class LeafElements {
   // A frond lives as long as this.
   DrawnLeaf drawn(std::uint32_t node);
 
-  // One step: all of `nodes` go, and the first of them is from now on what is drawn here. `error`: metres, of
-  // the state before. Cost: the nodes, and once the triangles of each piece.
+  // One step: all of `nodes` go, and the first of them is from now on what is drawn here. Cost: the
+  // nodes, and once the triangles of each piece.
   void merge(std::span<const std::uint32_t> nodes, const DrawnLeaf& leaf, std::uint32_t material,
-             std::uint32_t radius, double error);
+             std::uint32_t radius);
   // One step: the nodes go and nothing takes their place.
-  void remove(std::span<const std::uint32_t> nodes, double error);
+  void remove(std::span<const std::uint32_t> nodes);
   // From now on the nodes that were removed are back and merges go on, but nothing of it is drawn before
   // show_at() is told that no more than `triangles` are left. `order`: all nodes.
   void hold(std::vector<std::uint32_t> order, double triangles);
   // In small steps, each node in its turn, what is drawn becomes what has been merged since hold().
   void show_at(double triangles);
-  // What the builder says of the steps so far. Leaves nothing here.
+  // What the builder says of the steps so far; all errors are 0. Leaves nothing here.
   Spectrum finish() { return builder_.finish(); }
 
  private:
@@ -107,7 +107,6 @@ class LeafElements {
   bool held_ = false;
   double shown_ = 0;                       // triangles at which what is held is shown,
   std::vector<std::uint32_t> order_;       // node by node
-  double error_ = 0;                       // of what is held
   std::vector<Pending> pending_;           // leaves that are merged and not yet drawn
   std::vector<std::uint32_t> pending_of_;  // of each node: one of them, k_gone or k_none
   std::vector<std::uint8_t> removed_;      // of each node: by remove()

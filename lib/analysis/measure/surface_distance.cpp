@@ -1,5 +1,6 @@
 #include "lib/analysis/measure/surface_distance.h"
 
+#include "lib/analysis/measure/triangle_distance.h"
 #include "lib/formats/random.h"
 
 #include <algorithm>
@@ -13,30 +14,6 @@
 
 namespace copse {
 namespace {
-
-// Nearest point of a triangle to p, squared distance (Ericson, "Real-Time Collision Detection",
-// section 5.1.5).
-double square_distance(const Double3& p, const Double3& a, const Double3& b, const Double3& c) {
-  const Double3 ab = b - a, ac = c - a, ap = p - a;
-  const auto to = [&](const Double3& q) { return dot(p - q, p - q); };
-  const auto along = [&](double part, double whole) { return whole > 0 ? part / whole : 0; };
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return to(a);
-  const Double3 bp = p - b;
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return to(b);
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return to(a + ab * along(d1, d1 - d3));
-  const Double3 cp = p - c;
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return to(c);
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return to(a + ac * along(d2, d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return to(b + (c - b) * along(d4 - d3, (d4 - d3) + (d5 - d6)));
-  const double sum = va + vb + vc;
-  return sum > 0 ? to(a + ab * (vb / sum) + ac * (vc / sum)) : std::min({to(a), to(b), to(c)});
-}
 
 // A binary tree of boxes over triangles, halved at the median: node i's children are 2i + 1 and 2i + 2.
 class Nearest {
@@ -57,14 +34,14 @@ class Nearest {
     if (!order_.empty()) stack[depth++] = 0;
     while (depth > 0) {
       const std::uint32_t i = stack[--depth];
-      if (square_to(nodes_[i].box, p) >= best) continue;
+      if (square_distance(p, nodes_[i].box) >= best) continue;
       if (2 * i + 2 >= nodes_.size()) {
         for (std::uint32_t t = nodes_[i].first; t < nodes_[i].last; ++t)
           best = std::min(best, to_triangle(p, order_[t]));
         continue;
       }
       const std::uint32_t l = 2 * i + 1, r = l + 1;
-      const bool left = square_to(nodes_[l].box, p) <= square_to(nodes_[r].box, p);
+      const bool left = square_distance(p, nodes_[l].box) <= square_distance(p, nodes_[r].box);
       stack[depth++] = left ? r : l, stack[depth++] = left ? l : r;
     }
     return best;
@@ -76,16 +53,6 @@ class Nearest {
     DoubleBox box;
     std::uint32_t first = 0, last = 0;
   };
-
-  static double square_to(const DoubleBox& box, const Double3& p) {
-    if (box.empty()) return std::numeric_limits<double>::infinity();
-    double sum = 0;
-    for (int a = 0; a < 3; ++a) {
-      const double d = std::max({box.min[a] - p[a], 0.0, p[a] - box.max[a]});
-      sum += d * d;
-    }
-    return sum;
-  }
 
   double to_triangle(const Double3& p, std::uint32_t t) const {
     const auto& [a, b, c] = mesh_.triangles[t];
