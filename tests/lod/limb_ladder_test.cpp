@@ -10,7 +10,8 @@
 namespace copse {
 namespace {
 
-std::vector<LimbRung> ladder_of(const Tree& tree, RemovalOrder order = RemovalOrder::silhouette) {
+std::vector<LimbRung> ladder_of(const Tree& tree, RemovalOrder order = RemovalOrder::silhouette,
+                                double share = 0) {
   const std::vector<Double3> centres = absolute_centres(tree);
   const PartTriangles trunk = trunk_triangles(tree);
   const std::vector<LimbChain> chains = limb_chains(tree);
@@ -19,7 +20,7 @@ std::vector<LimbRung> ladder_of(const Tree& tree, RemovalOrder order = RemovalOr
   for (const std::uint32_t s : chains[0].segments)
     full +=
         static_cast<std::uint32_t>(tree.first_triangle_of_segment(s + 1) - tree.first_triangle_of_segment(s));
-  return limb_ladder(shape, std::vector<std::uint8_t>(shape.ring_count()), full, 1.3, order);
+  return limb_ladder(shape, std::vector<std::uint8_t>(shape.ring_count()), full, 1.3, order, {}, share);
 }
 
 TEST(LimbLadder, EndsInNothingAndHasNoFloor) {
@@ -55,6 +56,21 @@ TEST(LimbLadder, AWindingSquareStemNeverBecomesThreeSided) {
   const std::vector<LimbRung> ladder = ladder_of(tree_of(tube));
   ASSERT_GT(ladder.size(), 4u);
   for (const LimbRung& rung : ladder) EXPECT_NE(rung.sides, 3u) << rung.triangles;
+}
+
+TEST(LimbLadder, ARibbonIsDearerTheMoreOfTheTrunkItIs) {
+  Tube tube;
+  std::uint32_t before = k_none;
+  for (int i = 0; i < 10; ++i) before = tube.add_ring({0, i * 0.5, 0}, 0.3, 8, before);
+  const Tree tree = tree_of(tube);
+  const auto ribbon_cost = [&](double share) {
+    const std::vector<LimbRung> ladder = ladder_of(tree, RemovalOrder::silhouette, share);
+    const auto at =
+        std::find_if(ladder.begin(), ladder.end(), [](const LimbRung& r) { return r.sides == 2; });
+    return at == ladder.end() ? 1e9 : at->cost;
+  };
+  EXPECT_LT(1.1 * ribbon_cost(0), ribbon_cost(0.1));
+  EXPECT_LT(2 * ribbon_cost(0.1), ribbon_cost(0.9));
 }
 
 // A winding stem that tapers and has one sharp bend.

@@ -6,7 +6,9 @@
 #include "lib/formats/levels/part_triangles.h"
 #include "tests/lod/tube_tree.h"
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -69,6 +71,28 @@ TEST(TrunkRadii, KeepsTheCoverageAtATenth) {
   EXPECT_LE(tenth.triangles.size(), full.triangles.size() / 10);
   const DoubleBox box = bounds(full);
   EXPECT_NEAR(covered(tenth, box) / covered(full, box), 1, 0.05);
+}
+
+// A ribbon would be there from two sides and gone from the other two.
+TEST(TrunkRadii, AStemIsSeenFromAllSidesAtATenthAndBelow) {
+  const Spectrum s = trunk_by_radii(stem_with_twigs(30, 12, 30));
+  for (const double ratio : {0.1, 0.05, 0.02}) {
+    Mesh mesh;
+    append_state(mesh, s, step_for(s, ratio), "trunk");
+    const DoubleBox box = bounds(mesh);
+    for (int view = 0; view < 16; ++view) {
+      const double a = view * std::numbers::pi / 16;
+      double low = 1e9, high = -1e9;
+      for (const Triangle& t : mesh.triangles)
+        for (const std::uint32_t v : t) {
+          const Double3& p = mesh.positions[v];
+          if (p.y > 0.5 * box.max.y) continue;  // the foot of the stem, which is a metre thick
+          const double x = p.x * std::cos(a) + p.z * std::sin(a);
+          low = std::min(low, x), high = std::max(high, x);
+        }
+      EXPECT_GT(high - low, 0.5) << ratio << " " << view;
+    }
+  }
 }
 
 TEST(TrunkRadii, ALimbOutlivesWhatGrowsFromIt) {

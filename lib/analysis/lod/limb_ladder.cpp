@@ -19,6 +19,11 @@ double roughness(std::uint32_t sides) {
   return sides == 2 ? k_ribbon : sides == 1 ? k_spike : 1.7 / (static_cast<double>(sides) * sides);
 }
 
+// From its edge a ribbon is not seen. Where many limbs are ribbons, as much is too wide in any view as is
+// too thin; of the one that the trunk is made of, all goes at once. What that costs, in radii, when there is
+// no other limb.
+constexpr double k_alone = 2;
+
 // The inner rings in the order in which they go: each time the one that costs least.
 struct Removal {
   double cost = 0;
@@ -120,8 +125,8 @@ struct Rung {
 // Walks down in rings and sides, each time the way that costs less a triangle.
 class Walk {
  public:
-  Walk(const LimbShape& shape, const RingOrder& rings)
-      : shape_(shape), rings_(rings), sides_(side_counts(shape.sides())) {
+  Walk(const LimbShape& shape, const RingOrder& rings, double share)
+      : shape_(shape), rings_(rings), sides_(side_counts(shape.sides())), alone_(k_alone * share) {
     for (std::size_t i = 0; i + 1 < shape.ring_count(); ++i) {
       const double l = shape.length_between(i, i + 1);
       girth_ +=
@@ -170,6 +175,7 @@ class Walk {
     // The mesh's own polygon lies off the circle too, but elsewhere: a square becomes no triangle for free.
     const double rough = k == 0 ? 0 : std::hypot(roughness(r.sides), roughness(sides_.front()));
     r.cost = rings_.costs[gone] + girth_ * rough + rough_;
+    if (r.sides == 2) r.cost += girth_ * alone_;
     r.bound = rings_.bounds[gone] + 2 * rough * thickest_ + 3 * residual_;
     return r;
   }
@@ -180,7 +186,7 @@ class Walk {
   const LimbShape& shape_;
   const RingOrder& rings_;
   std::vector<std::uint32_t> sides_;
-  double girth_ = 0, rough_ = 0, thickest_ = 0, residual_ = 0;
+  double alone_ = 0, girth_ = 0, rough_ = 0, thickest_ = 0, residual_ = 0;
 };
 
 // Keeps what is on the lower convex hull of cost over triangles, from (full, 0) on.
@@ -212,9 +218,9 @@ double spike_roughness(const LimbShape& shape) {
 
 std::vector<LimbRung> limb_ladder(const LimbShape& shape, const std::vector<std::uint8_t>& forks,
                                   std::uint32_t full, double vanish, RemovalOrder order,
-                                  const HangingLeaves& leaves) {
+                                  const HangingLeaves& leaves, double share) {
   const RingOrder rings(shape, forks, order, leaves);
-  const Walk walk(shape, rings);
+  const Walk walk(shape, rings, share);
   std::vector<Rung> all = walk.rungs();
   const double length = shape.length_between(0, shape.ring_count() - 1);
   if (!shape.pointed()) {

@@ -35,11 +35,13 @@ struct HangingLeaves {
 
 // `forks`: for every ring whether other limbs grow there (such a ring counts twice). `full`: triangles of
 // full detail. `vanish`, `order`: see TrunkRadiiOptions; whatever the order, costs and bounds are those of
-// what is left out. Rungs by strictly descending triangles, below `full`; costs grow at least in proportion
-// to what they save (a convex ladder); the last one is nothing. O(rings log rings).
+// what is left out. `share`: what the limb has of the whole trunk's silhouette, 0 to 1: the larger, the
+// dearer is a ribbon, which is not seen from its edge. Rungs by strictly descending triangles, below `full`;
+// costs grow at least in proportion to what they save (a convex ladder); the last one is nothing. O(rings log
+// rings).
 std::vector<LimbRung> limb_ladder(const LimbShape& shape, const std::vector<std::uint8_t>& forks,
                                   std::uint32_t full, double vanish,
                                   RemovalOrder order = RemovalOrder::silhouette,
-                                  const HangingLeaves& leaves = {});
+                                  const HangingLeaves& leaves = {}, double share = 0);
 
 }  // namespace copse

@@ -274,9 +274,25 @@ bool bears_leaves(const Tree& tree, const LimbChain& limb) {
   });
 }
 
+// What each limb has of the silhouette of all.
+std::vector<double> silhouette_shares(const Tree& tree, const std::vector<LimbChain>& limbs) {
+  std::vector<double> shares;
+  double all = 0;
+  for (const LimbChain& limb : limbs) {
+    double own = 0;
+    for (std::size_t i = 1; i < limb.radii.size(); ++i) {
+      const Radius &a = tree.hierarchy.radii[limb.radii[i - 1]], &b = tree.hierarchy.radii[limb.radii[i]];
+      own += 0.5 * (double{a.diameter} + b.diameter) * b.distance;
+    }
+    shares.push_back(own), all += own;
+  }
+  for (double& s : shares) s = all > 0 ? s / all : 0;
+  return shares;
+}
+
 Ladder climb(const Tree& tree, const std::vector<Double3>& centres, const PartTriangles& trunk,
              const LimbChain& limb, std::uint32_t number, const std::vector<std::uint8_t>& forks,
-             const HangingLeaves& leaves, const TrunkRadiiOptions& options, Pieces& pieces) {
+             const HangingLeaves& leaves, double share, const TrunkRadiiOptions& options, Pieces& pieces) {
   const LimbShape shape(tree, centres, trunk, limb);
   LimbTubes tubes(tree, trunk, limb, shape, number, pieces);
   Ladder ladder{.rungs = {}, .full = tubes.add_full_detail(), .thickest = 0};
@@ -284,7 +300,7 @@ Ladder climb(const Tree& tree, const std::vector<Double3>& centres, const PartTr
     ladder.thickest = std::max(ladder.thickest, shape.ring(i).radius);
   if (ladder.full == 0) return ladder;
   const double vanish = bears_leaves(tree, limb) ? options.vanish_with_leaves : options.vanish;
-  ladder.rungs = limb_ladder(shape, forks, ladder.full, vanish, options.order, leaves);
+  ladder.rungs = limb_ladder(shape, forks, ladder.full, vanish, options.order, leaves, share);
   for (std::uint32_t r = 0; r < ladder.rungs.size(); ++r) {
     tubes.take(ladder.rungs[r], r + 1);
     ladder.rungs[r].kept = {};
@@ -334,8 +350,10 @@ Spectrum trunk_by_radii(const Tree& tree, const TrunkRadiiOptions& options) {
   const double hold = tree.header.bounds.empty() ? 0 : k_hold * tree.header.bounds.extent().y;
   Pieces pieces;
   std::vector<Ladder> ladders;
+  const std::vector<double> shares = silhouette_shares(tree, limbs);
   for (std::uint32_t l = 0; l < limbs.size(); ++l)
-    ladders.push_back(climb(tree, centres, trunk, limbs[l], l, forks[l], {leaves[l], hold}, options, pieces));
+    ladders.push_back(
+        climb(tree, centres, trunk, limbs[l], l, forks[l], {leaves[l], hold}, shares[l], options, pieces));
   std::vector<Move> moves = order_moves(limbs, ladders);
   if (options.order == RemovalOrder::diameter) sort_by_diameter(limbs, ladders, moves);
   return in_order(trunk, pieces, ladders, moves);
