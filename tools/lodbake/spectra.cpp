@@ -46,6 +46,14 @@ Spectrum trunk_spectrum(const Tree& tree, const Options& options, Context& conte
 Spectrum collapsed(const Tree& tree, const Looks& looks, const Options& options, Context& context) {
   CollapsedLumps lumps;
   Spectrum s = collapse_spectrum(tree, looks, {.quality = options.quality, .errors = false}, &lumps);
+  // What is left of them is seen from both sides only where both are drawn.
+  const bool single_sided = std::any_of(tree.materials.begin(), tree.materials.end(),
+                                        [](const Material& m) { return !m.double_sided; });
+  if (lumps.twins > 0 && single_sided)
+    context.warn(
+        fmt::format("{}: {} triangles of leaves lie on others, as in leaves made from both sides; levels "
+                    "draw one of each: give leaves a double-sided material",
+                    options.input.string(), lumps.twins));
   if (lumps.lumps > 0)
     context.report().tables.push_back(
         {.name = "leaves by edges",

@@ -9,6 +9,7 @@
 #include "lib/analysis/lod/leaf_pieces.h"
 #include "lib/analysis/lod/leaf_shape.h"
 #include "lib/analysis/lod/leaf_surfaces.h"
+#include "lib/analysis/lod/leaf_twins.h"
 #include "lib/analysis/lod/leaf_views.h"
 #include "lib/analysis/lod/radius_ancestors.h"
 
@@ -647,7 +648,9 @@ class Collapse {
 
 Spectrum collapse_spectrum(const Tree& tree, const Looks& looks, const LeafCollapseOptions& options,
                            CollapsedLumps* report) {
-  const LeafPieces pieces = leaf_pieces(tree);
+  const LeafPieces all = leaf_pieces(tree);
+  const std::optional<LeafTwins> twins = part_twins(all);
+  const LeafPieces& pieces = twins ? twins->left : all;
   const auto collapse = [&](const LeafPieces& some) {
     return options.quality == CollapseQuality::fast
                ? agglomerate_leaves(tree, looks, some, pieces.triangles.size())
@@ -660,6 +663,8 @@ Spectrum collapse_spectrum(const Tree& tree, const Looks& looks, const LeafColla
                .left = static_cast<std::uint32_t>(lumps->left.triangles.size()),
                .share = lumps->share};
   Spectrum s = lumps ? joined(lumps->spectrum, collapse(lumps->left)) : collapse(pieces);
+  if (report != nullptr && twins) report->twins = static_cast<std::uint32_t>(twins->gone.size());
+  if (twins) s = twins_first(all, *twins, s);
   if (options.errors) s.errors = hausdorff_errors(s);
   return s;
 }

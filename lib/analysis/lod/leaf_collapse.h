@@ -31,21 +31,23 @@ struct LeafCollapseOptions {
   bool errors = true;     // are measured; not: for who measures them later, of the steps in another order
 };
 
-// Which of the leaves lost edges before they were merged (leaf_surfaces.h).
+// Which of the leaves lost edges before they were merged (leaf_surfaces.h), and what went before.
 struct CollapsedLumps {
   std::uint32_t lumps = 0, triangles = 0;  // at full detail
   std::uint32_t left = 0;                  // triangles when edges were done: of all leaves
   double share = 0;                        // of the leaves' area
+  std::uint32_t twins = 0;                 // triangles that lie on others and went first (leaf_twins.h)
 };
 
 // The spectrum of the tree's leaves; without elements when it has none. An opaque leaf becomes a triangle,
 // triangle by triangle; one whose texture has alpha a card of two triangles with the texture of one of the
 // leaves that it stands for (or a triangle, where the leaves are triangles). Where most of the area is of
-// surfaces of many triangles these lose edges first (leaf_surfaces.h). `looks`: the masks of the
-// materials' textures; without them leaves with alpha are taken as opaque. What stands for leaves of several
-// twigs hangs on the lowest radius that bears them all. While many leaves are hidden they
-// only leave, nothing grows, and the sum of areas falls with them, coverage does not (leaf_occlusion.h);
-// below 0.19 of the triangles the areas add up to what they were, as long as that fits
+// surfaces of many triangles these lose edges first (leaf_surfaces.h). Of triangles that lie on one another
+// all but one go before anything else, and count in no area from there on (leaf_twins.h). `looks`: the masks
+// of the materials' textures; without them leaves with alpha are taken as opaque. What stands for leaves of
+// several twigs hangs on the lowest radius that bears them all. While many leaves are hidden they only leave,
+// nothing grows, and the sum of areas falls with them, coverage does not (leaf_occlusion.h); below 0.19 of
+// the triangles the areas add up to what they were, as long as that fits
 // (`largest`). A step's error, metres: the distance of
 // what is drawn from full detail (hausdorff_errors.h). Steps come in the
 // order of what they change in the picture, as far as can be. `lumps`: told what lost edges. Deterministic.

@@ -1,0 +1,101 @@
+#include "lib/analysis/lod/leaf_twins.h"
+
+#include "lib/analysis/lod/spectrum_builder.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+namespace copse {
+namespace {
+
+using Places = std::array<std::array<float, 3>, 3>;
+
+// The places of a triangle, whichever way round.
+Places places_of(const PartTriangles& part, std::uint32_t triangle) {
+  Places places;
+  for (int c = 0; c < 3; ++c) {
+    const Float3& p = part.vertices[part.triangles[triangle][c]].position;
+    places[c] = {p.x, p.y, p.z};
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+std::vector<std::uint32_t> find_twins(const LeafPieces& pieces) {
+  std::vector<std::pair<Places, std::uint32_t>> all;
+  all.reserve(pieces.triangles.size());
+  for (const std::uint32_t t : pieces.triangles) all.emplace_back(places_of(pieces.part, t), t);
+  std::sort(all.begin(), all.end());
+  std::vector<std::uint32_t> gone;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (all[i].first == all[i - 1].first) gone.push_back(all[i].second);
+  std::sort(gone.begin(), gone.end());
+  return gone;
+}
+
+// The pieces without some of their triangles, which have other numbers now.
+LeafPieces without(const LeafPieces& pieces, std::span<const std::uint32_t> gone) {
+  LeafPieces left{.part = pieces.part, .list = {}, .triangles = {}, .opacity = pieces.opacity};
+  left.part.triangles.clear(), left.part.materials.clear();
+  std::vector<std::uint32_t> number(pieces.part.triangles.size());
+  for (std::uint32_t t = 0, next = 0; t < number.size(); ++t) {
+    if (next < gone.size() && gone[next] == t) {
+      number[t] = k_none, ++next;
+      continue;
+    }
+    number[t] = static_cast<std::uint32_t>(left.part.triangles.size());
+    left.part.triangles.push_back(pieces.part.triangles[t]);
+    left.part.materials.push_back(pieces.part.materials[t]);
+  }
+  for (LeafPiece piece : pieces.list) {
+    const auto all = std::span(pieces.triangles).subspan(piece.first, piece.last - piece.first);
+    piece.first = static_cast<std::uint32_t>(left.triangles.size());
+    for (const std::uint32_t t : all)
+      if (number[t] != k_none) left.triangles.push_back(number[t]);
+    piece.last = static_cast<std::uint32_t>(left.triangles.size());
+    if (piece.last - piece.first < 2) piece.cut = LeafCut::triangle;
+    if (piece.last > piece.first) left.list.push_back(piece);
+  }
+  return left;
+}
+
+}  // namespace
+
+std::optional<LeafTwins> part_twins(const LeafPieces& pieces) {
+  std::vector<std::uint32_t> gone = find_twins(pieces);
+  if (gone.empty()) return {};
+  LeafPieces left = without(pieces, gone);
+  return LeafTwins{std::move(left), std::move(gone)};
+}
+
+Spectrum twins_first(const LeafPieces& pieces, const LeafTwins& twins, const Spectrum& then) {
+  const std::size_t steps = std::min(k_twin_steps, twins.gone.size());
+  SpectrumBuilder builder(then.method);
+  for (std::size_t n = 0; n < steps; ++n) builder.step(0);
+  for (std::uint32_t n = 1; n <= then.steps(); ++n) builder.step(then.errors[n]);
+  for (const SpectrumVertex& v : then.vertices) builder.vertex(v);
+  for (std::size_t e = 0; e < then.elements.size(); ++e) {
+    SpectrumElement element = then.elements[e];
+    if (element.birth > 0) element.birth += static_cast<std::uint32_t>(steps);
+    if (element.death != k_none) element.death += static_cast<std::uint32_t>(steps);
+    const std::uint32_t first = then.first_triangle[e];
+    builder.element(element, std::span(then.triangles).subspan(first, then.first_triangle[e + 1] - first));
+  }
+  std::vector<std::uint32_t> radius(pieces.part.triangles.size(), k_none);
+  for (const LeafPiece& piece : pieces.list)
+    for (std::uint32_t i = piece.first; i < piece.last; ++i) radius[pieces.triangles[i]] = piece.radius;
+  for (std::size_t i = 0; i < twins.gone.size(); ++i) {
+    const std::uint32_t t = twins.gone[i];
+    std::array<std::uint32_t, 3> corners{};
+    for (int c = 0; c < 3; ++c)
+      corners[c] = builder.vertex(pieces.part.vertices[pieces.part.triangles[t][c]]);
+    const auto death = static_cast<std::uint32_t>(1 + i * steps / twins.gone.size());
+    builder.element({.birth = 0, .death = death, .material = pieces.part.materials[t], .radius = radius[t]},
+                    std::span(&corners, 1));
+  }
+  return builder.finish();
+}
+
+}  // namespace copse
