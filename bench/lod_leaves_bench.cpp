@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -71,10 +72,10 @@ struct Options {
   int views = 42;
   double only = 0;  // one ratio; 0: all of them
   bool peers = true;
-  bool speed = false;  // instead: triangles a second of every quality
-  CollapseQuality quality = CollapseQuality::balanced;
-  bool errors = false;       // instead: each level's stored error beside the measured distance
-  bool projections = false;  // instead: how wrong the estimates for lines and points are
+  bool speed = false;                      // instead: triangles a second of every quality
+  std::optional<CollapseQuality> quality;  // balanced, or with --speed all of them
+  bool errors = false;                     // instead: each level's stored error beside the measured distance
+  bool projections = false;                // instead: how wrong the estimates for lines and points are
 };
 
 // The largest and the mean error over 162 directions, at full, half and a tenth of coverage.
@@ -97,21 +98,26 @@ void projections(const std::string& name, const Tree& tree) {
   }
 }
 
-// Million triangles a processor second: each quality for the whole spectrum, meshoptimizer for the one level
-// at a tenth. What takes long is left out of large trees.
-void speeds(const std::string& name, const Tree& tree, const DrawnMesh& source, const Looks& looks) {
+// Million triangles a processor second: each quality for the whole spectrum, the errors of the first one's
+// steps, meshoptimizer for the one level at a tenth. What takes long is left out of large trees.
+void speeds(const std::string& name, const Tree& tree, const DrawnMesh& source, const Looks& looks,
+            std::optional<CollapseQuality> only) {
   const auto rate = [&](const auto& work) {
     const auto start = Clock::now();
     work();
     return double(source.triangles.size()) / std::max(seconds_since(start), 1e-6) / 1e6;
   };
   fmt::print("{:24} {:8}", name, source.triangles.size());
+  Spectrum spectrum;
   for (const CollapseQuality q : {CollapseQuality::fast, CollapseQuality::balanced, CollapseQuality::exact}) {
     const std::size_t most = q == CollapseQuality::exact ? 100'000 : 1'000'000;
-    if (q != CollapseQuality::fast && source.triangles.size() > most)
+    if ((only && *only != q) || (q != CollapseQuality::fast && source.triangles.size() > most))
       fmt::print(" {:>8}", "-");
     else
-      fmt::print(" {:8.3f}", rate([&] { collapse_spectrum(tree, looks, {.quality = q}); }));
+      fmt::print(" {:8.3f}",
+                 rate([&] { spectrum = collapse_spectrum(tree, looks, {.quality = q, .errors = false}); }));
+    if (q == CollapseQuality::fast || only == q)
+      fmt::print(" {:8.3f}", rate([&] { hausdorff_errors(spectrum); }));
   }
   fmt::print(" {:8.3f}\n", rate([&] { meshopt(source, source.triangles.size() / 10, false); }));
 }
@@ -137,7 +143,7 @@ void errors(const std::string& name, const DrawnMesh& source, const Spectrum& sp
     const double measured = std::max(d.from_level.max, d.from_source.max);
     fmt::print("{:24} {:5.3f} {:7} {:8.4f} {:8.4f} {:8.4f} {:6.3f} {:8.0f}\n", name, ratio,
                spectrum.counts[n], stored[n], d.from_source.max, d.from_level.max,
-               measured > 0 ? stored[n] / measured : 1.0, nanoseconds);
+               measured > 1e-9 ? stored[n] / measured : 1.0, nanoseconds);
   }
 }
 
@@ -161,9 +167,10 @@ void bench(const std::filesystem::path& path, const Options& options) {
   });
   const Looks looks{tree.materials, masks};
   const std::string name = path.stem().string();
-  if (options.speed) return speeds(name, tree, source, looks);
+  if (options.speed) return speeds(name, tree, source, looks, options.quality);
   const auto start = Clock::now();
-  const Spectrum spectrum = collapse_spectrum(tree, looks, {.quality = options.quality});
+  const Spectrum spectrum =
+      collapse_spectrum(tree, looks, {.quality = options.quality.value_or(CollapseQuality::balanced)});
   const double collapse_seconds = seconds_since(start);
   if (options.errors) return errors(name, source, spectrum);
   const DrawnMesh full = drawn_state(spectrum, 0);

@@ -13,8 +13,8 @@
 namespace copse {
 namespace {
 
-constexpr std::size_t k_pieces = 64;  // a triangle, on the mean: more are not cut
-constexpr std::size_t k_least_pieces = 65536;
+constexpr std::size_t k_pieces = 16;  // more a triangle that is drawn, until half of them are left
+constexpr std::size_t k_least_pieces = 8192;
 constexpr std::size_t k_tried = 4;  // elements of a step that are asked before all others
 constexpr double k_loose = 1.1;  // how much farther than the nearest triangle one may be that is taken for it
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
@@ -173,7 +173,6 @@ class HausdorffErrors {
     DoubleBox box;
     for (const SpectrumVertex& v : s.vertices) box.grow(to_double(v.position));
     if (!box.empty()) enough_ = floor_ = k_hausdorff_floor * length(box.extent());
-    pieces_left_ = k_least_pieces + k_pieces * s.triangles.size();
   }
 
   std::vector<float> run() {
@@ -280,6 +279,8 @@ class HausdorffErrors {
     for (std::uint32_t e = 0; e < s_.elements.size() && s_.elements[e].death > n; ++e)
       if (s_.elements[e].birth < renewed_) elements.push_back(e);
     tree_ = TriangleTree(s_, elements);
+    pieces_left_ = k_least_pieces + k_pieces * s_.counts[n];
+    spent_ = pieces_left_ / 8, coarser_ = pieces_left_ - spent_, slack_ = k_hausdorff_slack;
   }
 
   // What was near an element that is gone is near another now.
@@ -404,10 +405,14 @@ class HausdorffErrors {
     const double farthest = square_farthest(piece, tree.piece(found.triangle));
     if (farthest <= square(enough_)) return near;
     if (pieces_left_ < 3) {
-      raise(std::min(apart + radius, std::sqrt(farthest)));
+      enough_ = std::max(enough_, std::min(apart + radius, std::sqrt(farthest)));
       return near;
     }
     pieces_left_ -= 3;
+    if (pieces_left_ < coarser_) {
+      coarser_ -= std::min(coarser_, spent_), slack_ *= 2;
+      enough_ = std::max({enough_, (1 + slack_) * error_, slack_ / k_hausdorff_slack * floor_});
+    }
     const Double3 ab = (piece[0] + piece[1]) * 0.5, bc = (piece[1] + piece[2]) * 0.5,
                   ca = (piece[2] + piece[0]) * 0.5;
     for (const Piece& part : {Piece{piece[0], ab, ca}, {ab, piece[1], bc}, {ca, bc, piece[2]}, {ab, bc, ca}})
@@ -416,8 +421,8 @@ class HausdorffErrors {
   }
 
   void raise(double error) {
-    if (!(error > error_)) return;
-    error_ = error, enough_ = std::max(floor_, (1 + k_hausdorff_slack) * error_);
+    if (!(error > std::max(error_, 0.1 * floor_))) return;  // not what rounding makes
+    error_ = error, enough_ = std::max(enough_, (1 + slack_) * error_);
   }
 
   const Spectrum& s_;
@@ -433,10 +438,11 @@ class HausdorffErrors {
   std::vector<std::pair<std::size_t, std::size_t>> spans_;  // of open_, while it is bunched up
   std::vector<Piece> todo_;
   std::span<const std::uint32_t> tried_;
-  std::size_t pieces_left_ = 0;
+  std::size_t pieces_left_ = 0, spent_ = 0, coarser_ = 0;  // each time spent_ have gone the slack is doubled
+  double slack_ = k_hausdorff_slack;
   bool changed_ = false;
   // The error is no less than error_ as far as known; what is no farther than enough_ is near.
-  double error_ = 0, floor_ = 0, enough_ = 0;
+  double error_ = 0, enough_ = 0, floor_ = 0;
 };
 
 }  // namespace

@@ -16,9 +16,10 @@ namespace copse {
 
 // Of each state, steps + 1 of them, metres: 0 as long as nothing has changed, then the largest distance of
 // all states so far or more, by no more than k_hausdorff_slack of it or k_hausdorff_floor of the box's
-// diagonal, the larger of the two (more only where a crown asks for 64 pieces a triangle and over). Where
-// nothing is drawn: the largest float. Deterministic; one thread. O(n log n), some hundred nanoseconds a
-// triangle.
+// diagonal, the larger of the two. Where leaves are so large against their distance that more than some 16
+// pieces a triangle are asked for, slack and floor are doubled, and again. Where nothing is drawn: the
+// largest float. Deterministic; one thread. O(n log n), some microseconds a triangle where leaves cross one
+// another.
 std::vector<float> hausdorff_errors(const Spectrum& spectrum);
 
 inline constexpr double k_hausdorff_slack = 0.25;
