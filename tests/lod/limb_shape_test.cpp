@@ -2,6 +2,7 @@
 
 #include "tests/lod/tube_tree.h"
 
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -60,6 +61,47 @@ TEST(LimbShape, ARibbonIsAsWideOnAverageAsTheTube) {
   // Seen from all round a strip of width w shows 2 w / pi.
   EXPECT_NEAR(distance(to_double(ends[0].position), to_double(ends[1].position)) * 2 / std::numbers::pi, 1.0,
               1e-3);
+}
+
+// A strip of two vertices a ring, .2 wide along a level direction, that leans over; one vertex at its tip.
+Tree blade(int rings, double angle, bool pointed) {
+  Tube tube;
+  std::uint32_t before = k_none;
+  const Double3 half{0.1 * std::cos(angle), 0, 0.1 * std::sin(angle)}, lean{-half.z, 0, half.x};
+  for (int i = 0; i < rings; ++i) {
+    const bool tip = pointed && i + 1 == rings;
+    const Double3 centre = lean * (0.1 * i * i) + Double3{0, 0.3 * i, 0};
+    const auto ring = tube.add_ring(centre, 0, tip ? 1 : 2, before, true);
+    tube.hierarchy.radii[ring].diameter = tip ? 0 : 0.2;
+    tube.hierarchy.radii[ring].joint = false;
+    const std::uint32_t c = tube.hierarchy.first_vertex[ring];
+    tube.mesh.positions[c] = tip ? centre : centre - half;
+    if (!tip) tube.mesh.positions[c + 1] = centre + half;
+    if (i > 0) {
+      const std::uint32_t p = tube.hierarchy.first_vertex[before];
+      tube.add_triangle({p, p + 1, c}, ring);
+      if (!tip) tube.add_triangle({p + 1, c + 1, c}, ring);
+    }
+    before = ring;
+  }
+  return tree_of(tube);
+}
+
+TEST(LimbShape, AStripStaysInItsPlaneAndIsAsWideAsItIs) {
+  for (const bool pointed : {false, true}) {
+    const Limb limb(blade(6, 0.7, pointed));
+    EXPECT_EQ(limb.shape.sides(), 2u);
+    EXPECT_TRUE(limb.shape.regular());
+    EXPECT_EQ(limb.shape.triangles(6, 2), pointed ? 9u : 10u);
+    for (const std::size_t interval : {1u, 2u}) {
+      const std::vector<SpectrumVertex> ring = ring_vertices(limb.shape, 2, interval, 2, 1.9);
+      ASSERT_EQ(ring.size(), 2u);
+      const Double3 across = to_double(ring[1].position) - to_double(ring[0].position);
+      EXPECT_NEAR(across.x, 0.2 * std::cos(0.7), 1e-6);
+      EXPECT_NEAR(across.z, 0.2 * std::sin(0.7), 1e-6);
+    }
+    EXPECT_NEAR(limb.shape.ring(2).perimeter, 0.4, 1e-6);
+  }
 }
 
 TEST(LimbShape, ASpikeIsAsLargeAsTheRibbonThatItStandsFor) {

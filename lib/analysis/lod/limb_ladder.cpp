@@ -110,7 +110,8 @@ class RingOrder {
 std::vector<std::uint32_t> side_counts(std::uint32_t most) {
   std::vector<std::uint32_t> counts;
   for (std::uint32_t k = most; k > 3; k = k > 8 ? k * 3 / 4 : k - 1) counts.push_back(k);
-  counts.push_back(3), counts.push_back(2);
+  if (most > 2) counts.push_back(3);
+  counts.push_back(2);
   return counts;
 }
 
@@ -175,7 +176,7 @@ class Walk {
     // The mesh's own polygon lies off the circle too, but elsewhere: a square becomes no triangle for free.
     const double rough = k == 0 ? 0 : std::hypot(roughness(r.sides), roughness(sides_.front()));
     r.cost = rings_.costs[gone] + girth_ * rough + rough_;
-    if (r.sides == 2) r.cost += girth_ * alone_;
+    if (r.sides == 2 && k > 0) r.cost += girth_ * alone_;
     r.bound = rings_.bounds[gone] + 2 * rough * thickest_ + 3 * residual_;
     return r;
   }

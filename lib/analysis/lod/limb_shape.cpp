@@ -27,6 +27,10 @@ constexpr std::size_t k_samples = 16;  // rings looked at when an interval's err
 constexpr double k_ribbon_width =
     std::numbers::pi / 2;  // in diameters: a flat strip seen from all round is 2/pi wide
 
+// One triangle for a strip that is as large as the strip has twice its foot: blades stand close, so that
+// covers too much and reaches out of the tuft. So much more of the foot covers as much as the strips did.
+constexpr double k_blade = 0.35;
+
 // In [0, k_turn).
 double positive(double angle) {
   angle -= k_turn * std::floor(angle / k_turn);
@@ -94,7 +98,10 @@ LimbShape::LimbShape(const Tree& tree, const std::vector<Double3>& centres, cons
   const RingShape &last = rings_.back(), &before = rings_[rings_.size() - 2];
   pointed_ = last.radius <= k_point_share * before.radius;
   std::array<std::vector<RingSide>, 2> scratch;
+  flat_ = goes_flat();
+  if (flat_) strips_.resize(intervals, {{{k_none, k_none}, {k_none, k_none}}});
   for (std::size_t i = 0; i < intervals; ++i) read_sides(i, scratch);
+  if (flat_) unfold();
   thin_out_radii();
   choose_phases();
 }
@@ -228,6 +235,58 @@ void LimbShape::read_sides(std::size_t interval, std::array<std::vector<RingSide
   if (interval + 2 == rings_.size()) capped_ = lid && !pointed_;
   if (!regular_[interval] && is_fork(interval)) narrow(interval, area);
   for (const std::size_t e : {0u, 1u}) fit_width(interval, e, loops[e]);
+  if (flat_) read_strip(interval, loops, plain && band == end[1] - first[1]);
+}
+
+// Whether the limb is a strip, a blade of grass: two vertices a ring, its tip may be one.
+bool LimbShape::goes_flat() const {
+  const auto count = [&](std::size_t i) {
+    return tree_.first_vector_of(limb_.radii[i] + 1) - tree_.first_vector_of(limb_.radii[i]);
+  };
+  for (std::size_t i = 0; i + 1 < rings_.size(); ++i)
+    if (count(i) != 2) return false;
+  return count(rings_.size() - 1) == 2 || count(rings_.size() - 1) == 1;
+}
+
+void LimbShape::read_strip(std::size_t interval,
+                           const std::array<std::vector<std::array<std::uint32_t, 2>>, 2>& edges,
+                           bool plain) {
+  for (const std::size_t e : {0u, 1u}) {
+    if (!edges[e].empty()) strips_[interval][e] = edges[e].front();
+  }
+  regular_[interval] = plain;
+}
+
+// The two edges of a strip in one order all along; a ring is as wide as its two vertices are apart.
+void LimbShape::unfold() {
+  const auto place = [&](std::uint32_t v) { return to_double(trunk_.vertices[v].position); };
+  for (std::size_t i = 0; i < strips_.size() && flat_; ++i) {
+    auto& [low, high] = strips_[i];
+    // A tip is one vertex; a segment without an edge at its rings is no strip.
+    if (high[0] == k_none && i + 1 == strips_.size()) high = tip_of(i);
+    flat_ = low[0] != k_none && high[0] != k_none;
+    if (!flat_) return;
+    if (i > 0 && trunk_.position_of[low[0]] != trunk_.position_of[strips_[i - 1][1][0]])
+      std::swap(low[0], low[1]);
+    if (dot(place(high[1]) - place(high[0]), place(low[1]) - place(low[0])) < 0) std::swap(high[0], high[1]);
+  }
+  for (std::size_t i = 0; i < rings_.size(); ++i) {
+    RingShape& ring = rings_[i];
+    const auto& [a, b] = i < strips_.size() ? strips_[i][0] : strips_[i - 1][1];
+    ring.perimeter = 2 * length(across_of(place(b) - place(a), ring.axis));
+    ring.radius = ring.perimeter / k_turn, ring.residual = 0;
+  }
+}
+
+std::array<std::uint32_t, 2> LimbShape::tip_of(std::size_t interval) const {
+  const std::uint32_t s = limb_.segments[interval], r = limb_.radii[interval + 1];
+  for (std::size_t t = tree_.first_triangle_of_segment(s);
+       t < std::min(tree_.first_triangle_of_segment(s + 1), trunk_.triangles.size()); ++t)
+    for (const std::uint32_t v : trunk_.triangles[t])
+      if (trunk_.position_of[v] >= tree_.first_vector_of(r) &&
+          trunk_.position_of[v] < tree_.first_vector_of(r + 1))
+        return {v, v};
+  return {k_none, k_none};
 }
 
 // Where the interval's own triangles go round in another number of sides than the ring has, as where limbs
@@ -316,7 +375,7 @@ bool LimbShape::regular() const {
 std::uint32_t LimbShape::sides() const {
   std::uint32_t most = 0;
   for (const RingShape& r : rings_) most = std::max(most, r.sides);
-  return most >= 3 ? most : 8;
+  return flat_ ? 2 : most >= 3 ? most : 8;
 }
 
 std::uint32_t LimbShape::material(std::size_t interval) const {
@@ -445,6 +504,7 @@ std::uint32_t LimbShape::triangles(std::size_t kept, std::uint32_t sides) const 
 
 Float2 LimbShape::ring_texcoord(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
                                 std::size_t j) const {
+  if (flat_) return trunk_.vertices[strips_[interval][i - interval][j]].texcoord;
   if (sides == 2) return texcoord(i, interval, ribbon_angle + (j == 0 ? std::numbers::pi : 0), 1);
   return texcoord(i, interval, rings_[i].phase + k_turn * static_cast<double>(j) / sides,
                   j == sides ? -1 : 1);
@@ -453,6 +513,13 @@ Float2 LimbShape::ring_texcoord(std::size_t i, std::size_t interval, std::uint32
 void LimbShape::append_ring(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
                             double wider, std::vector<SpectrumVertex>& out) const {
   const RingShape& ring = rings_[i];
+  if (flat_) {
+    for (const std::uint32_t v : strips_[interval][i - interval]) {
+      out.push_back(trunk_.vertices[v]);
+      out.back().position = to_float(ring.centre + (to_double(out.back().position) - ring.centre) * wider);
+    }
+    return;
+  }
   const auto texture = [&](std::size_t j) { return ring_texcoord(i, interval, sides, ribbon_angle, j); };
   if (sides == 2) {
     const Double3 wide = ring.x * std::cos(ribbon_angle) + ring.y * std::sin(ribbon_angle);
@@ -492,7 +559,8 @@ std::array<SpectrumVertex, 3> LimbShape::spike(double ribbon_angle) const {
   append_ring(0, 0, 2, ribbon_angle, wider(ends), low);
   append_ring(last, last - 1, 2, ribbon_angle, 1, high);
   const double first_width = width(0, 0) * rings_[0].perimeter;
-  const double both = first_width > 0 ? 1 + rings_[last].perimeter / first_width : 1;
+  const double both =
+      first_width > 0 ? 1 + (flat_ ? k_blade : 1.0) * rings_[last].perimeter / first_width : 1;
   for (SpectrumVertex& v : low)
     v.position = to_float(rings_[0].centre + (to_double(v.position) - rings_[0].centre) * both);
   high[0].position = to_float(rings_[last].centre);

@@ -47,7 +47,9 @@ class LimbShape {
   // Whether the triangles of interval i (between rings i and i + 1) are a plain band, with at most a lid.
   bool regular(std::size_t i) const { return regular_[i]; }
   bool regular() const;
-  std::uint32_t sides() const;  // the most of any ring; 3 at least
+  // The most of any ring, 3 at least; 2 of a strip (two vertices a ring): its ribbon lies in its own plane,
+  // is as wide as it is, and it never is a tube.
+  std::uint32_t sides() const;
   // Whether the last ring is (nearly) a point, so that the last interval ends in a cone.
   bool pointed() const { return pointed_; }
   bool capped() const { return capped_; }
@@ -87,8 +89,8 @@ class LimbShape {
   // The texture coordinate of vertex j of the same.
   Float2 ring_texcoord(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
                        std::size_t j) const;
-  // The limb as one triangle, as large as the ribbon straight from its first to its last ring, its tip at the
-  // last.
+  // The limb as one triangle, as large as the ribbon straight from its first to its last ring (smaller for a
+  // strip), its tip at the last.
   std::array<SpectrumVertex, 3> spike(double ribbon_angle) const;
 
  private:
@@ -106,6 +108,11 @@ class LimbShape {
   void narrow(std::size_t interval, double area);
   void fit_width(std::size_t interval, std::size_t end,
                  const std::vector<std::array<std::uint32_t, 2>>& loop);
+  bool goes_flat() const;
+  void read_strip(std::size_t interval, const std::array<std::vector<std::array<std::uint32_t, 2>>, 2>& edges,
+                  bool plain);
+  void unfold();
+  std::array<std::uint32_t, 2> tip_of(std::size_t interval) const;
   void thin_out_radii();
   double girth(std::size_t a, std::size_t b) const;
   double area_of(const std::array<std::uint32_t, 3>& corners) const;
@@ -130,8 +137,10 @@ class LimbShape {
   std::vector<std::array<Float2, 2>> any_texcoord_;  // of every interval, at its two rings
   std::vector<std::uint8_t> regular_;
   std::vector<std::array<double, 2>> width_;  // of every interval, at its two rings
-  double size_ = 0;                           // of the tree
-  bool pointed_ = false, capped_ = false;
+  // Of every interval of a strip, the vertices of its two edges at its two rings.
+  std::vector<std::array<std::array<std::uint32_t, 2>, 2>> strips_;
+  double size_ = 0;  // of the tree
+  bool pointed_ = false, capped_ = false, flat_ = false;
 };
 
 }  // namespace copse
