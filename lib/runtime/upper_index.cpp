@@ -5,7 +5,9 @@
 namespace copse {
 namespace {
 
-constexpr double k_loose = 1.5;  // how much the boxes may grow before the order is made anew
+constexpr double k_loose = 1.5;       // how much all boxes may grow before the order is made anew
+constexpr double k_loose_mean = 2.5;  // and on the mean of the inner boxes, none counted more than
+constexpr double k_most = 8;
 constexpr int k_bits = 16;
 
 std::uint64_t spread(std::uint64_t v) {  // its bits three apart
@@ -57,7 +59,8 @@ void UpperIndex::build() {
     nodes_.push_back({{},
                       static_cast<std::uint32_t>(nodes_.size()) + 2 * count - 1,
                       count == 1 ? order_[r.begin].second : k_none,
-                      r.level});
+                      r.level,
+                      0});
     if (count == 1) continue;
     const std::uint32_t middle = r.begin + count / 2;
     open[top++] = {middle, r.end, r.level + 1};
@@ -65,8 +68,9 @@ void UpperIndex::build() {
   }
 }
 
-double UpperIndex::refit() {
-  double sum = 0;
+UpperIndex::Growth UpperIndex::refit() {
+  Growth growth;
+  double ratios = 0, inner = 0;
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     Node& n = nodes_[i];
     if (n.thing != k_none) {
@@ -75,16 +79,25 @@ double UpperIndex::refit() {
       n.box = nodes_[i + 1].box;
       n.box.grow(nodes_[nodes_[i + 1].skip].box);
     }
-    sum += half_surface(n.box);
+    const double surface = half_surface(n.box);
+    growth.sum += surface;
+    if (n.thing != k_none) continue;
+    ++inner;
+    ratios += surface <= n.tight ? 1 : std::min(surface / n.tight, k_most);
   }
-  return sum;
+  if (inner > 0) growth.mean = ratios / inner;
+  return growth;
 }
 
 bool UpperIndex::update() {
-  if (tight_ >= 0 && refit() <= tight_ * k_loose) return false;
+  if (tight_ >= 0) {
+    const Growth growth = refit();
+    if (growth.sum <= tight_ * k_loose && growth.mean <= k_loose_mean) return false;
+  }
   make_order();
   build();
-  tight_ = refit();
+  tight_ = refit().sum;
+  for (Node& n : nodes_) n.tight = half_surface(n.box);
   return true;
 }
 

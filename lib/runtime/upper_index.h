@@ -3,7 +3,8 @@
 // The lower level is what is below one thing (a tree, a platform): built offline, moved along as a whole. The
 // upper level holds the boxes of the things as they are now: a balanced binary tree over them in the order of
 // a space-filling curve. Every frame the boxes are refitted, O(n); when they have drifted so far that the
-// tree has grown loose, the order is made anew, O(n log n). Nothing is allocated after construction.
+// tree has grown loose, all in all or on the mean of its boxes (one thing far away makes all the others'
+// boxes nothing beside its own), the order is made anew, O(n log n). Nothing is allocated after construction.
 //
 // Source: digest 002, section 3.6 (two-level hierarchy), which leaves open how the upper level is kept.
 #pragma once
@@ -56,15 +57,21 @@ class UpperIndex {
     FloatBox box;
     std::uint32_t skip = 0, thing = k_none;
     int level = 0;
+    double tight = 0;  // half its surface when the order was made
   };
   void make_order();
   void build();
-  double refit();  // the sum of the surfaces of all boxes
+  struct Growth {
+    double sum = 0;  // of half the surfaces of all boxes
+    double mean =
+        1;  // by how much an inner box has grown since the order was made, none counted more than 8 times
+  };
+  Growth refit();
 
   std::vector<FloatBox> boxes_;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order_;  // key, thing
   std::vector<Node> nodes_;
-  double tight_ = -1;  // that sum when the order was made
+  double tight_ = -1;  // the sum when the order was made
 };
 
 }  // namespace copse

@@ -96,6 +96,23 @@ TEST(ConvexHull, FindsTheDimensionAndAFrameOfFlatPoints) {
   }
 }
 
+// Lengths cancel: what rounding leaves of a needle's volume may be a million times what it has.
+TEST(ConvexHull, OfATiltedNeedleTheLeastVolumeIsNoMoreThanItsLengthAndThicknessAllow) {
+  const Double3 u = normalized({1, 2, 3}), v = normalized(cross(u, {0, 0, 1})), w = cross(u, v);
+  for (const double thin : {1e-2, 1e-6, 1e-9, 1e-12}) {
+    Random random(3);
+    Points needle;
+    for (int i = 0; i < 200; ++i)
+      needle.push_back(u * random.around(0, 1) + (v * random.around(0, 1) + w * random.around(0, 1)) * thin);
+    const ConvexHull hull = hull_of(needle);
+    const double least = hull.frame.volume_out(hull.least_volume);
+    EXPECT_LE(least, 2.001 * (2 * thin + 4e-16) * (2 * thin + 4e-16)) << thin;
+    if (thin >= 1e-6) {
+      EXPECT_GE(hull.least_volume, 0.99 * hull.volume) << thin;
+    }
+  }
+}
+
 TEST(ConvexHull, NearlyFlatPointsAreStillSpace) {
   Points points = random_points(3, 200, {1, 1, 0});
   for (std::size_t i = 0; i < points.size(); ++i) points[i].z = 1e-13 * double(i % 7);

@@ -66,6 +66,24 @@ TEST(Ellipsoids, OfFlatPointsAreTheEllipseAndTheSegment) {
   EXPECT_NEAR(placed(minimal_ellipsoid(segment).volume, segment.frame).semi_axes.x, 1, 1e-12);
 }
 
+TEST(Ellipsoids, MoreStepsGiveNoLargerOneAndNoLowerBound) {
+  for (const std::uint64_t seed : {3, 4, 5, 6}) {
+    const ConvexHull hull = convex_hull(make_point_cloud(random_cloud(seed, 300, {1, .6, .3})).value());
+    const auto volume_after = [&](int steps) {
+      const auto fit = minimal_ellipsoid(hull, {.gap = 1e-9, .max_steps = steps});
+      return std::pair(fit.volume.semi_axes.x * fit.volume.semi_axes.y * fit.volume.semi_axes.z,
+                       fit.lower_bound);
+    };
+    auto before = volume_after(1);
+    for (int steps = 2; steps < 120; ++steps) {
+      const auto now = volume_after(steps);
+      EXPECT_LE(now.first, before.first * (1 + 1e-9)) << steps;
+      EXPECT_GE(now.second, before.second * (1 - 1e-9)) << steps;
+      before = now;
+    }
+  }
+}
+
 TEST(Ellipsoids, MinimalIsTheSameForAnyOrder) {
   auto points = random_cloud(8, 300, {1, .6, .3});
   const auto fit = [&] { return minimal_ellipsoid(convex_hull(make_point_cloud(points).value())); };

@@ -70,6 +70,19 @@ TEST(SmallestCircle, OfASymmetricSetIsBoundedFromBelowByItself) {
   EXPECT_NEAR(c.lower_radius, 1 + 1e-3, 1e-12);
 }
 
+TEST(SmallestCircle, IsTheSameToTheBitInAnyOrder) {
+  Random random(3);
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Vec2<double>> points;
+    for (int i = 0; i < 7; ++i) points.push_back({random.around(0, 1), 0.25 * double(random.below(9))});
+    const SmallestCircle circle = smallest_circle(points);
+    random.shuffle(std::span(points));
+    const SmallestCircle other = smallest_circle(points);
+    ASSERT_EQ(other.centre, circle.centre) << round;
+    ASSERT_EQ(other.radius, circle.radius) << round;
+  }
+}
+
 TEST(SmallestCircle, FromLikelyPointsIsTheSameCircle) {
   Random random(9);
   for (int n = 1; n < 40; ++n) {

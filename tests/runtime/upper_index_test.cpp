@@ -81,6 +81,28 @@ TEST(UpperIndex, FollowsThingsThatMoveAndOrdersAnewOnlyWhenTheyHaveDrifted) {
   EXPECT_LT(anew, 20);
 }
 
+// Beside the box of one that is far away those of all others are nothing.
+TEST(UpperIndex, OneThatIsFarAwayDoesNotHideThatTheOthersHaveScrambled) {
+  Scene scene(500, 7);
+  scene.at[0] = {1e6f, 1e6f, 1e6f};
+  UpperIndex index(500);
+  scene.place(index);
+  EXPECT_TRUE(index.update());
+  EXPECT_FALSE(index.update());
+  Random random(5);
+  random.shuffle(std::span(scene.at).subspan(1));
+  scene.place(index);
+  EXPECT_TRUE(index.update());
+  expect_as_one_by_one(index, scene, 9);
+  int anew = 0;
+  for (int frame = 0; frame < 100; ++frame) {  // alone on its way, it makes no one else's order worse
+    scene.at[0] = scene.at[0] + Float3{1e4f, 0, 0};
+    scene.place(index);
+    anew += index.update();
+  }
+  EXPECT_LE(anew, 3);
+}
+
 TEST(UpperIndex, ThingsInOnePlaceAreNoSpecialCase) {
   Scene scene(64, 3);
   for (Float3& p : scene.at) p = {1, 2, 3};

@@ -240,7 +240,10 @@ TEST_F(Bvfit, VerifyJudgesWhatOthersWrote) {
       R"({"sets":[{"volumes":[{"type":"sphere","center":[0.5,0.5,0.5],"radius":0.8660254037844386}]}]})");
   EXPECT_EQ(run({"--verify", nearly, mesh}).status, 1);
   const std::pair<const char*, const char*> wrong[] = {
-      {"[1,2", "no JSON"},
+      {"[1,2", "line 1 column 5"},
+      {"[1,2]", "no JSON"},
+      {R"({"sets":[],"sets":[]})", "the key 'sets' stands twice"},
+      {R"({"sets":[{"name":7,"volumes":[]}]})", "its \"name\" is no text"},
       {"{}", "no \"sets\""},
       {R"({"sets":[{"volumes":[{"type":"ball"}]}]})", "type 'ball' is unknown"},
       {R"({"sets":[{"volumes":[{"type":"sphere","center":[1,2],"radius":1}]}]})", "'center' of this sphere"},
@@ -256,7 +259,8 @@ TEST_F(Bvfit, VerifyJudgesWhatOthersWrote) {
        "of 'whole': its \"volume\" is 33.5103"},
       {R"({"sets":[{"volumes":[{"type":"sphere","center":[0,0,0],"radius":2,"lower_bound":33.6}]}]})",
        "is no bound of its volume"},
-      {R"({"sets":[{"volumes":[{"type":"sphere","center":[0,0,0],"radius":1e999}]}]})", "no JSON"}};
+      {R"({"sets":[{"volumes":[{"type":"sphere","center":[0,0,0],"radius":1e999}]}]})",
+       "1e999 is more than a number can be"}};
   for (const auto& [text, says] : wrong) {
     const Outcome o = run({"--verify", save("wrong.json", text), mesh});
     EXPECT_EQ(o.status, 1) << text;

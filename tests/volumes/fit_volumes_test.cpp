@@ -51,7 +51,8 @@ TEST(FitVolumes, NoPointOfTheWholeBatteryIsOutsideAnyVolumeAsStored) {
       EXPECT_TRUE(v.certified) << set.name << ": " << name_of(v.method.kind) << " " << v.method.name;
       EXPECT_TRUE(certify(v.volume, set.points).holds())
           << set.name << ": " << name_of(v.method.kind) << " " << v.method.name;
-      EXPECT_LE(v.lower_bound, v.measures.volume)
+      EXPECT_LE(v.lower_bound, v.fitted) << set.name << " " << name_of(v.method.kind) << " " << v.method.name;
+      EXPECT_LE(v.fitted, v.measures.volume)
           << set.name << ": " << name_of(v.method.kind) << " " << v.method.name;
     }
   }
@@ -188,6 +189,42 @@ TEST(FitVolumes, NotOneByteOfAnyMethodDependsOnTheOrderOrRepetitionOfThePoints) 
       EXPECT_EQ(before[i].volume, after[i].volume) << label(before[i]) << " of " << points.size();
       EXPECT_EQ(before[i].lower_bound, after[i].lower_bound) << label(before[i]) << " of " << points.size();
     }
+  }
+}
+
+// Where of equally far points the first is taken, small sets tell.
+TEST(FitVolumes, NotOneByteOfSmallSetsDependsOnTheOrder) {
+  Random random(4);
+  for (int round = 0; round < 200; ++round) {
+    Points points;
+    for (int i = 0; i < 6; ++i)
+      points.push_back(
+          {double(random.below(14)) - 7, double(random.below(14)) - 7, double(random.below(14)) - 7});
+    Points other(points.rbegin(), points.rend());
+    const auto a = VolumeFitter::make(points), b = VolumeFitter::make(other);
+    for (const FitMethod& m : fit_methods()) {
+      if (!m.quick) continue;
+      const auto one = a->fit(m), two = b->fit(m);
+      ASSERT_TRUE(one && two);
+      EXPECT_EQ(one->volume, two->volume) << label(*one) << " of set " << round;
+      EXPECT_EQ(one->fitted, two->fitted) << label(*one) << " of set " << round;
+    }
+  }
+}
+
+TEST(FitVolumes, NoQuickCapsuleIsLargerThanTheBallNorQuickLozengeThanTheCapsule) {
+  for (const NamedPoints& set : mixed_sets()) {
+    const auto fitter = VolumeFitter::make(set.points);
+    const auto volume = [&](VolumeKind kind, const char* name) {
+      for (const FitMethod& m : fit_methods()) {
+        if (m.kind == kind && m.name == name) return fitter->fit(m)->measures.volume;
+      }
+      return 0.0;
+    };
+    const double ball = volume(VolumeKind::sphere, "minimal"),
+                 capsule = volume(VolumeKind::capsule, "least-squares"), room = 1 + 1e-5;
+    EXPECT_LE(capsule, ball * room) << set.name;
+    EXPECT_LE(volume(VolumeKind::lozenge, "gaussian"), capsule * room) << set.name;
   }
 }
 

@@ -64,6 +64,19 @@ TEST(MotionEnvelope, ArcsLieInTheHullOfTheirChords) {
   }
 }
 
+TEST(MotionEnvelope, AWholeTurnInFewStepsIsHeldAllTheSame) {
+  const Points points{{1, 0, 0}, {0, 2, 1}};
+  const Joint joint{{0, 0, 0}, {0, 0, 1}, 0, 2 * std::numbers::pi};
+  const Points envelope = joint_envelope(points, joint, 3);
+  for (int i = 0; i < 360; ++i) {
+    const double turn = i * std::numbers::pi / 180;
+    const Double3 n{std::cos(turn), std::sin(turn), 0};
+    double most = -1;
+    for (const Double3& p : envelope) most = std::max(most, dot(n, p));
+    EXPECT_GE(most, 2) << i;
+  }
+}
+
 TEST(MotionEnvelope, AStillJointIsThePointsThemselves) {
   const Points points{{1, 0, 0}, {0, 2, 0}};
   for (const Double3& p : joint_envelope(points, {{0, 0, 0}, {0, 1, 0}, 0, 0}, 1)) {

@@ -3,6 +3,7 @@
 #include "tools/bvfit/measured_costs.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -66,18 +67,34 @@ bool is_as_good_minimal(const FittedVolume& v, const FittedVolume& than) {
          v.measures.volume <= than.measures.volume;
 }
 
-// The smallest of each kind, where only the best of several quick methods is wanted.
-void keep_smallest(std::vector<FittedVolume>& volumes) {
+// What was asked for by its name, and of the others of each kind the smallest, unless what was asked for is.
+void keep_smallest(std::vector<FittedVolume>& volumes, const std::vector<std::string>& names) {
+  std::array<std::size_t, k_volume_kinds> best;
+  best.fill(volumes.size());
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    std::size_t& b = best[static_cast<std::size_t>(volumes[i].method.kind)];
+    const bool better = b == volumes.size() || volumes[i].measures.volume < volumes[b].measures.volume ||
+                        is_as_good_minimal(volumes[i], volumes[b]);
+    if (better) b = i;
+  }
   std::vector<FittedVolume> kept;
-  for (FittedVolume& v : volumes) {
-    const bool same = !kept.empty() && kept.back().method.kind == v.method.kind;
-    if (!same) {
-      kept.push_back(std::move(v));
-    } else if (v.measures.volume < kept.back().measures.volume || is_as_good_minimal(v, kept.back())) {
-      kept.back() = std::move(v);
-    }
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (best[static_cast<std::size_t>(volumes[i].method.kind)] == i || holds(names, volumes[i].method.name))
+      kept.push_back(std::move(volumes[i]));
   }
   volumes = std::move(kept);
+}
+
+// Of one kind; `otherwise` where there is none of it.
+std::size_t smallest_of(VolumeKind kind, const std::vector<FittedVolume>& volumes, std::size_t otherwise) {
+  std::size_t best = volumes.size();
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (volumes[i].method.kind != kind) continue;
+    if (best == volumes.size() || volumes[i].measures.volume < volumes[best].measures.volume ||
+        is_as_good_minimal(volumes[i], volumes[best]))
+      best = i;
+  }
+  return best == volumes.size() ? otherwise : best;
 }
 
 std::vector<FitMethod> methods_of(VolumeKind kind, const std::vector<FitMethod>& methods) {
@@ -233,12 +250,12 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
   fit.size = length(fitter->cloud().box.extent()) * fitter->cloud().frame.scale;
   if (choosing.criterion == Criterion::aspect || options.tune) fit.ratios = ratios_of(*fitter);
   std::vector<FitMethod> wanted = methods;
-  if (choosing.criterion == Criterion::aspect) {  // only what the tree picks is fitted
+  if (choosing.criterion == Criterion::aspect) {  // only what the tree picks is fitted, but to tune on
     const VolumeKind picked = choosing.aspect.choose(fit.ratios);
     std::vector<FitMethod> of_it = methods_of(picked, methods);
     if (of_it.empty()) {
       fit.not_asked = picked;
-    } else {
+    } else if (!options.tune) {
       wanted = std::move(of_it);
     }
   }
@@ -267,8 +284,11 @@ Result<SetFit> fit_set(const PartSet& set, const std::vector<FitMethod>& methods
   }
   if (fit.volumes.empty()) return refuse("", set.name + " is too large for float32", "use a smaller scale");
   fitter->share_lower_bounds(fit.volumes);
-  if (options.methods == std::vector<std::string>{"best"}) keep_smallest(fit.volumes);
+  if (holds(options.methods, "best") && !holds(options.methods, "all"))
+    keep_smallest(fit.volumes, options.methods);
   fit.chosen = choose_volume(fit, choosing);
+  if (choosing.criterion == Criterion::aspect)
+    fit.chosen = smallest_of(choosing.aspect.choose(fit.ratios), fit.volumes, fit.chosen);
   const VolumeMeasures& chosen = fit.volumes[fit.chosen].measures;
   fit.chosen_as_flat = choosing.criterion != Criterion::expected && is_flat(chosen, fit.size) &&
                        std::any_of(fit.volumes.begin(), fit.volumes.end(),

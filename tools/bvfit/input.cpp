@@ -84,12 +84,34 @@ void add_corners(const std::vector<T>& values, const std::vector<Triangle>& corn
   all_corners.resize(before + count, k_without);
 }
 
+// Left-over vertices count, as all vertices do: where they make volumes larger, that is told.
+void warn_of_strays(const Mesh& mesh, const std::string& name, Context& context) {
+  if (mesh.triangles.empty()) return;
+  std::vector<bool> used(mesh.positions.size());
+  DoubleBox box;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) used[v] = true, box.grow(mesh.positions[v]);
+  }
+  std::size_t strays = 0;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    DoubleBox with = box;
+    with.grow(mesh.positions[i]);
+    strays += !used[i] && (with.min != box.min || with.max != box.max);
+  }
+  if (strays == 0) return;
+  context.warn(
+      fmt::format("{}: {} of {} vertices are in no face and lie beyond those that are; volumes hold them, "
+                  "too: remove them if they are left over",
+                  name, strays, used.size()));
+}
+
 Result<void> add_mesh(const fs::path& path, Input& input, Context& context) {
   auto import = import_mesh(path);
   if (!import) return std::unexpected(import.error());
   for (std::size_t i = 0; i < import->files.size(); ++i) context.read(import->files[i], i == 0);
   for (const std::string& warning : import->warnings) context.warn(path.string() + ": " + warning);
   Mesh& mesh = import->mesh;
+  warn_of_strays(mesh, path.string(), context);
   const std::size_t base = input.points.size();
   input.points.insert(input.points.end(), mesh.positions.begin(), mesh.positions.end());
   // Points alone stay as they are written; a mesh's vertices are float32 when anything tests them.
@@ -343,6 +365,7 @@ Result<Input> read_input(const std::vector<fs::path>& paths, Context& context) {
   for (std::size_t i = 0; i < input.points.size(); ++i) {
     if (!is_finite(input.points[i]))
       return refuse(input.name, fmt::format("point {} is not finite", i), "export it again");
+    input.points[i] += Double3{};  // -0 becomes 0, or equal points were told apart by their bytes
   }
   return input;
 }

@@ -41,6 +41,17 @@ std::optional<Run> run_of(const PartSet& set, const FitMethod& method, FitQualit
   return run;
 }
 
+// By how much a volume is above the best of its kind or a bound; 0 where both are nothing, infinite where no
+// number says it.
+double excess_over(double volume, double least) {
+  if (least > 0) return volume / least - 1;
+  return volume > 0 ? std::numeric_limits<double>::infinity() : 0;
+}
+
+std::string excess_text(double excess) {
+  return excess <= k_useful ? fmt::format("{:.3g} %", 100 * excess) : "none useful";
+}
+
 std::vector<Run> runs_of(const PartSet& set, const std::vector<FitMethod>& methods, Stage& stage) {
   std::vector<Run> runs;
   const auto add = [&](const FitMethod& m, std::string name, FitQuality quality, double limit) {
@@ -91,19 +102,17 @@ Result<std::string> sweep(const PartSet& set, const std::vector<FitMethod>& meth
   for (const Run& r : runs) {
     const auto k = static_cast<std::size_t>(r.method.kind);
     const std::string kind(name_of(r.method.kind));
-    const double over = r.volume / best[k] - 1, whole = r.seconds + (r.method.on_hull ? r.hull_seconds : 0);
-    const double excess = bound[k] > 0 ? r.volume / bound[k] - 1 : std::numeric_limits<double>::infinity();
-    const bool bounded = excess <= k_useful;
-    const std::string over_bound = bounded        ? fmt::format("{:.3g} %", 100 * excess)
-                                   : bound[k] > 0 ? "none useful"
-                                                  : "";
-    out += fmt::format("    {:<10} {:<17} {:<12} {:>10.4g} {:>10.4g} {:>11.4g} % {:>13}\n", kind,
-                       r.method.name, r.quality, 1e3 * r.seconds, 1e3 * whole, 100 * over, over_bound);
+    const double over = excess_over(r.volume, best[k]), over_least = excess_over(r.volume, bound[k]),
+                 whole = r.seconds + (r.method.on_hull ? r.hull_seconds : 0);
+    const std::string over_best = excess_text(over), over_bound = bound[k] > 0 ? excess_text(over_least) : "";
+    out += fmt::format("    {:<10} {:<17} {:<12} {:>10.4g} {:>10.4g} {:>13} {:>13}\n", kind, r.method.name,
+                       r.quality, 1e3 * r.seconds, 1e3 * whole, over_best, over_bound);
     table.rows.push_back({kind, r.method.name, r.quality, fmt::format("{:.4g}", 1e3 * r.seconds),
-                          fmt::format("{:.4g}", 1e3 * whole), fmt::format("{:.4g} %", 100 * over),
-                          over_bound});
+                          fmt::format("{:.4g}", 1e3 * whole), over_best, over_bound});
     auto& curves = context.report().curves;
-    const bool over_proven = bound[k] > 0 && best[k] / bound[k] - 1 <= k_useful;
+    const bool over_proven = bound[k] > 0 && excess_over(best[k], bound[k]) <= k_useful;
+    const double drawn = over_proven ? over_least : over;
+    if (!(drawn <= k_useful)) continue;
     if (curves.empty() || curves.back().name != kind)
       curves.push_back({kind,
                         "seconds, with the hull",
@@ -111,8 +120,8 @@ Result<std::string> sweep(const PartSet& set, const std::vector<FitMethod>& meth
                         {},
                         true});
     // A logarithmic axis has no place for 0: what is best stands at the rounding of float32.
-    curves.back().points.push_back({fmt::format("{} {}", r.method.name, r.quality), std::max(whole, 1e-7),
-                                    std::max(over_proven ? r.volume / bound[k] - 1 : over, 1e-8)});
+    curves.back().points.push_back(
+        {fmt::format("{} {}", r.method.name, r.quality), std::max(whole, 1e-7), std::max(drawn, 1e-8)});
   }
   context.report().tables.push_back(std::move(table));
   return out + "\n";

@@ -139,16 +139,40 @@ struct Fault {
   std::string what, mend;
 };
 
-// What is wrong with the directions of a volume, which makes it hold nothing; none when that is not why.
-template <class V>
-std::optional<Fault> fault_of(const V&) {
+std::optional<Fault> fault_of_sizes(const char* what, const Double3& sizes) {
+  for (int i = 0; i < 3; ++i) {
+    if (!(sizes[i] >= 0))
+      return Fault{fmt::format("{} {} is {:.9g}", what, i, sizes[i]), "write none below 0"};
+  }
   return std::nullopt;
 }
-template <class V>
-requires requires(const V& v) {
-  v.axes;
+std::optional<Fault> fault_of_radius(double radius) {
+  if (radius >= 0) return std::nullopt;
+  return Fault{fmt::format("radius is {:.9g}", radius), "write none below 0"};
 }
-std::optional<Fault> fault_of(const V& v) {
+
+// What is wrong with the sizes or the directions of a volume, which makes it hold nothing; none when that is
+// not why.
+std::optional<Fault> fault_of(const DoubleBox& v) {
+  for (int i = 0; i < 3; ++i) {
+    if (v.min[i] > v.max[i])
+      return Fault{fmt::format("min {:.9g} is above its max {:.9g} along {}", v.min[i], v.max[i], "xyz"[i]),
+                   "write the least as min"};
+  }
+  return std::nullopt;
+}
+std::optional<Fault> fault_of(const BoundingSphere<double>& v) {
+  return fault_of_radius(v.radius);
+}
+std::optional<Fault> fault_of(const Capsule<double>& v) {
+  return fault_of_radius(v.radius);
+}
+std::optional<Fault> fault_of(const Cylinder<double>& v) {
+  if (v.a == v.b) return Fault{"a and b are one point, which leaves its direction open", "write two points"};
+  return fault_of_radius(v.radius);
+}
+template <class V>
+std::optional<Fault> fault_of_axes(const V& v) {
   const std::string mend = "write unit axes at right angles";
   for (std::size_t i = 0; i < v.axes.size(); ++i) {
     if (const double square = dot(v.axes[i], v.axes[i]); !(std::abs(square - 1) <= k_rounding))
@@ -163,20 +187,37 @@ std::optional<Fault> fault_of(const V& v) {
   }
   return std::nullopt;
 }
-template <>
+std::optional<Fault> fault_of(const OrientedBox<double>& v) {
+  const auto fault = fault_of_sizes("half extent", v.half_extents);
+  return fault ? fault : fault_of_axes(v);
+}
+std::optional<Fault> fault_of(const Ellipsoid<double>& v) {
+  const auto fault = fault_of_sizes("semi-axis", v.semi_axes);
+  return fault ? fault : fault_of_axes(v);
+}
 std::optional<Fault> fault_of(const Lozenge<double>& v) {
+  if (const auto fault = fault_of_radius(v.radius)) return fault;
   if (length(v.edge0) == 0 || length(v.edge1) == 0) return std::nullopt;
   const double degrees = degrees_between(v.edge0, v.edge1);
   if (std::abs(degrees - 90) * std::numbers::pi / 180 <= k_rounding) return std::nullopt;
   return Fault{fmt::format("edges are at {:.9g} degrees and not at right angles", degrees),
                "write edges at right angles"};
 }
-template <>
 std::optional<Fault> fault_of(const Kdop<double>& v) {
+  if (v.min.size() != v.normals.size() || v.max.size() != v.normals.size())
+    return Fault{
+        fmt::format("{} normals have {} min and {} max", v.normals.size(), v.min.size(), v.max.size()),
+        "write one of each a normal"};
+  for (std::size_t i = 0; i < v.normals.size(); ++i) {
+    if (v.normals[i] == Double3{}) return Fault{fmt::format("normal {} is 0", i), "write a direction"};
+    if (v.min[i] > v.max[i])
+      return Fault{fmt::format("min {:.9g} is above its max {:.9g} along normal {}", v.min[i], v.max[i], i),
+                   "write the least as min"};
+  }
   if (!std::isinf(measures_of(v).volume)) return std::nullopt;
   return Fault{"slabs leave a direction open", "write slabs whose normals span space"};
 }
-std::optional<Fault> false_directions(const Volume<double>& volume) {
+std::optional<Fault> false_shape(const Volume<double>& volume) {
   return std::visit([](const auto& v) { return fault_of(v); }, volume);
 }
 
@@ -301,7 +342,7 @@ Result<void> verify_volumes(const Options& options, Context& context) {
   const std::string which =
       fmt::format("{} of {} volumes leave points outside; the worst is {}{} of '{}'", failed, judged,
                   worst.volume->type, method_text(*worst.volume), worst.set);
-  if (const auto fault = false_directions(worst.volume->volume))
+  if (const auto fault = false_shape(worst.volume->volume))
     return refuse(options.verify.string(), fmt::format("{}: its {}", which, fault->what), fault->mend);
   return refuse(
       options.verify.string(),

@@ -1,6 +1,7 @@
 #include "tools/bvfit/volumes_json.h"
 
 #include "lib/analysis/volumes/certify.h"
+#include "tools/common/document.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,16 +102,14 @@ std::string motion_json(const SetFit& set) {
 // Takes members out of a volume; the first that is missing or of the wrong shape is remembered.
 class Members {
  public:
-  explicit Members(const nlohmann::json& j) : j_(j) {}
+  explicit Members(const Json& j) : j_(j) {}
 
   double number(const char* name) {
     const auto at = j_.find(name);
     if (at == j_.end() || !at->is_number()) return miss(name), 0;
     return at->get<double>();
   }
-  Double3 vector(const char* name) {
-    return vector_of(j_.contains(name) ? j_[name] : nlohmann::json(), name);
-  }
+  Double3 vector(const char* name) { return vector_of(j_.contains(name) ? j_[name] : Json(), name); }
   std::vector<Double3> vectors(const char* name) {
     std::vector<Double3> out;
     if (!j_.contains(name) || !j_[name].is_array()) return miss(name), out;
@@ -134,7 +133,7 @@ class Members {
   const std::string& missing() const { return missing_; }
 
  private:
-  Double3 vector_of(const nlohmann::json& v, const char* name) {
+  Double3 vector_of(const Json& v, const char* name) {
     if (!v.is_array() || v.size() != 3 || !v[0].is_number() || !v[1].is_number() || !v[2].is_number()) {
       return miss(name), Double3{};
     }
@@ -143,7 +142,7 @@ class Members {
   void miss(const char* name) {
     if (missing_.empty()) missing_ = name;
   }
-  const nlohmann::json& j_;
+  const Json& j_;
   std::string missing_;
 };
 
@@ -169,14 +168,17 @@ Volume<double> take_volume(VolumeKind kind, Members& m) {
   return Kdop<double>{m.vectors("normals"), m.numbers("min"), m.numbers("max")};
 }
 
-std::string text_of(const nlohmann::json& j, const char* name) {
+std::string text_of(const Json& j, const char* name) {
   return j.is_object() && j.contains(name) && j[name].is_string() ? j[name].get<std::string>() : "";
 }
 
 constexpr std::string_view k_envelope = " envelope";
 
-Result<ReadSet> read_set(const nlohmann::json& j, std::size_t index, const std::string& file) {
+Result<ReadSet> read_set(const Json& j, std::size_t index, const std::string& file) {
   ReadSet set;
+  if (j.contains("name") && !j["name"].is_string())
+    return refuse(file, fmt::format("set {}: its \"name\" is no text", index),
+                  "write one, or none for the whole");
   set.name = text_of(j, "name").empty() ? "whole" : text_of(j, "name");
   if (text_of(j, "motion") == "envelope") set.motion = VolumeMotion::envelope;
   if (j.contains("sway") && j["sway"].is_number()) set.sway = j["sway"].get<float>();
@@ -190,17 +192,17 @@ Result<ReadSet> read_set(const nlohmann::json& j, std::size_t index, const std::
 }
 
 // Indices that JSON may hold; k_none for what is none.
-std::uint32_t index_of(const nlohmann::json& j, const char* name) {
+std::uint32_t index_of(const Json& j, const char* name) {
   if (!j.is_object() || !j.contains(name) || !j[name].is_number_unsigned()) return k_none;
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(j[name].get<std::uint64_t>(), k_none));
 }
 
-std::optional<double> number_of(const nlohmann::json& j, const char* name) {
+std::optional<double> number_of(const Json& j, const char* name) {
   if (!j.contains(name) || !j[name].is_number()) return std::nullopt;
   return j[name].get<double>();
 }
 
-Result<ReadVolume> read_volume(const nlohmann::json& j, const std::string& file, const std::string& place) {
+Result<ReadVolume> read_volume(const Json& j, const std::string& file, const std::string& place) {
   ReadVolume v;
   v.type = text_of(j, "type"), v.method = text_of(j, "method");
   const auto kind = volume_kind(v.type);
@@ -271,17 +273,11 @@ std::string volumes_json(const Input& input, std::span<const SetFit> sets, std::
 }
 
 Result<ReadVolumes> read_volumes_json(const std::string& text, const std::string& file) {
-  // The callback bounds the nesting: a parser of ours would recurse as deep as the file likes.
-  bool deep = false;
-  const auto j = nlohmann::json::parse(
-      text,
-      [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
-        return deep |= depth > 64, depth <= 64;
-      },
-      false);
-  if (j.is_discarded() || deep || !j.is_object()) {
+  const auto document = parse_document(text, file);
+  if (!document) return std::unexpected(document.error());
+  const Json& j = *document;
+  if (!j.is_object())
     return refuse(file, "this is no JSON object", "name a volumes file (bvfit -o oak.volumes.json)");
-  }
   if (!j.contains("sets") || !j["sets"].is_array())
     return refuse(file, "it has no \"sets\"", "name a volumes file (schema copse.volumes/1)");
   ReadVolumes volumes;

@@ -1,7 +1,8 @@
-// The JSON that a user writes: read, edited, and checked against the schema.
+// The JSON that a user writes: edited, and checked against the schema.
 #pragma once
 
 #include "lib/formats/result.h"
+#include "tools/common/document.h"
 
 #include <string>
 #include <string_view>
@@ -12,9 +13,6 @@
 namespace copse::ecogen {
 
 using Json = nlohmann::ordered_json;
-
-// Refused with line and column: what is no JSON, a key that stands twice in one object, more than 64 levels.
-Result<Json> parse_document(std::string_view text, const std::string& file);
 
 // "types[0].count=500": a value that exists, or a new key of an object that exists. What is right of the
 // first

@@ -24,7 +24,7 @@ BoundedFit<OrientedBox<double>> minimal_box(const ConvexHull& hull, const Minima
   if (hull.dimension < 3) return {box_in_axes(hull.boundary, flat_box(hull).axes), 0};
   const VertexWidths widths(hull.vertices);
   FrameVolume best = search_box(hull, widths, options.deadline);
-  double bound = hull.volume * (1 - k_rounding);
+  double bound = hull.least_volume;
   if (std::isfinite(options.gap)) {
     // What a kernel gives away counts as a part of the gap.
     const double given = measures_of(box_in_axes(hull.boundary, best.axes)).volume / best.volume;

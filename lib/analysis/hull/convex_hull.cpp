@@ -130,14 +130,18 @@ void find_edges(ConvexHull& hull) {
 }
 
 void measure(ConvexHull& hull) {
+  constexpr double k_of_faces = 16 * 0x1p-53, k_of_points = 0x1p-52;
   const Double3& apex = hull.vertices.front();
+  double sizes = 0;
   for (const auto& f : hull.faces) {
     const Double3 a = hull.vertices[f[0]] - apex, b = hull.vertices[f[1]] - apex,
                   c = hull.vertices[f[2]] - apex;
     const Double3 normal = cross(b - a, c - a);
     hull.area += length(normal) / 2;
     hull.volume += dot(normal, a) / 6;
+    sizes += length(b - a) * length(c - a) * length(a);
   }
+  hull.least_volume = std::max(0.0, hull.volume * (1 - 1e-12) - k_of_faces * sizes - k_of_points * hull.area);
 }
 
 // Where the hull is cut short what is outside it is told.

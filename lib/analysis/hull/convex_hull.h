@@ -37,6 +37,7 @@ struct ConvexHull {
   std::vector<std::array<std::uint32_t, 3>> faces;  // dimension 3: triangles, counter-clockwise from outside
   std::vector<HullEdge> edges;                      // dimensions 2 and 3, sorted by (a, b)
   double volume = 0, area = 0;                      // dimension 3; 0 otherwise
+  double least_volume = 0;  // what it has at least, whatever rounding did to the coordinates and to `volume`
 
   // Points whose hull holds every point of the cloud: `vertices`, or with a kernel all that are outside it.
   std::vector<Double3> boundary;

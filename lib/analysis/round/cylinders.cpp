@@ -410,11 +410,11 @@ BoundedFit<Cylinder<double>> minimal_cylinder(const ConvexHull& hull, const Mini
   if (hull.dimension < 3) return {flat_cylinder(hull), 0};
   const Tube best = search(hull, options.deadline);
   if (!std::isfinite(options.gap)) {
-    const double bound = hull.volume * (1 - k_rounding);
+    const double bound = hull.least_volume;
     return {cylinder_along(hull.boundary, best.direction), std::min(bound, best.volume())};
   }
   CylinderBounder bounder(hull, best, options);
-  const double bound = std::max(hull.volume * (1 - k_rounding), bounder.run());
+  const double bound = std::max(hull.least_volume, bounder.run());
   return {cylinder_of(bounder.whole()), std::min(bound, bounder.best().volume())};
 }
 

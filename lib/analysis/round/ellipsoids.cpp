@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -54,16 +55,29 @@ class Weights {
       }
       if (distance_[far] <= d_ * wanted) break;
       const bool away = d_ - distance_[near] > distance_[far] - d_;
+      keep_if_least(distance_[far]);
       if (!move(away ? near : far)) break;
       if (step % 50 == 0) refresh();
     }
     refresh();
+    keep_if_least(*std::ranges::max_element(distance_));
+    if (!std::isfinite(least_)) least_mean_ = mean_, least_covariance_ = covariance_;
   }
 
-  Double3 centre() const { return mean_; }
-  const std::array<double, 6>& covariance() const { return covariance_; }
+  // Of the shape that has been least, grown to hold all points: steps that raise the bound can make it
+  // larger.
+  Double3 centre() const { return least_mean_; }
+  const std::array<double, 6>& covariance() const { return least_covariance_; }
+  // Of the last weights, whose bound is the highest: of the covariance.
+  double determinant() const { return determinant_; }
 
  private:
+  void keep_if_least(double farthest) {
+    const double size = determinant_ * std::pow(farthest, d_);  // its volume squared, but for a factor
+    if (!(size > 0 && size < least_)) return;
+    least_ = size, least_mean_ = mean_, least_covariance_ = covariance_;
+  }
+
   void start() {  // extreme along the axes, and along the directions that these leave
     Axes done{};
     for (int k = 0; k < d_; ++k) {
@@ -110,8 +124,8 @@ class Weights {
     const double yy = d_ < 2 ? 1 : m[3], zz = d_ < 3 ? 1 : m[5];
     const Double3 a{m[0], m[1], m[2]}, b{m[1], yy, m[4]}, c{m[2], m[4], zz};
     const Double3 bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
-    const double det = dot(a, bc);
-    inverse_ = {bc / det, ca / det, ab / det};
+    determinant_ = dot(a, bc);
+    inverse_ = {bc / determinant_, ca / determinant_, ab / determinant_};
   }
 
   double form(const Double3& u, const Double3& v) const {
@@ -152,6 +166,9 @@ class Weights {
   Double3 mean_;
   std::array<double, 6> covariance_{};
   Axes inverse_{};
+  double determinant_ = 0, least_ = std::numeric_limits<double>::infinity();
+  Double3 least_mean_;
+  std::array<double, 6> least_covariance_{};
 };
 
 }  // namespace
@@ -199,11 +216,10 @@ BoundedFit<Ellipsoid<double>> minimal_ellipsoid(const ConvexHull& hull,
 
   const Double3 c = weights.centre();
   std::array<double, 6> m = weights.covariance();
-  const double yy = hull.dimension < 2 ? 1 : m[3], zz = hull.dimension < 3 ? 1 : m[5];
-  const double det = dot(Double3{m[0], m[1], m[2]}, cross(Double3{m[1], yy, m[4]}, Double3{m[2], m[4], zz}));
   double bound = 0;
   if (hull.dimension == 3) {
-    bound = 4 * std::numbers::pi / 3 * std::sqrt(std::max(0.0, 27 * det)) * scale.x * scale.y * scale.z;
+    bound = 4 * std::numbers::pi / 3 * std::sqrt(std::max(0.0, 27 * weights.determinant())) * scale.x *
+            scale.y * scale.z;
   }
   m[0] *= scale.x * scale.x, m[1] *= scale.x * scale.y, m[2] *= scale.x * scale.z;
   m[3] *= scale.y * scale.y, m[4] *= scale.y * scale.z, m[5] *= scale.z * scale.z;

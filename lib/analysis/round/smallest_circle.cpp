@@ -67,12 +67,17 @@ class SupportCircle {
   int size_ = 0;
 };
 
+bool comes_before(const Double2& a, const Double2& b) {
+  return a.x != b.x ? a.x < b.x : a.y < b.y;
+}
+
+// Of equally far ones that of the least coordinates, in whatever order they come.
 std::uint32_t farthest_from(const Double2& centre, std::span<const Double2> points, double& squared) {
   std::uint32_t far = 0;
   squared = -1;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     const double d = squared_distance(centre, points[i]);
-    if (d > squared) squared = d, far = i;
+    if (d > squared || (d == squared && comes_before(points[i], points[far]))) squared = d, far = i;
   }
   return far;
 }
@@ -90,7 +95,8 @@ SmallestCircle smallest_circle(std::span<const Double2> points, std::span<const 
     if (circle.size() == 0 || squared_distance(circle.centre(), points[i]) > radius * radius)
       circle.include(i);
   }
-  if (likely.empty()) circle.include(farthest_from(points[0], points, squared));
+  if (likely.empty())
+    circle.include(farthest_from(*std::ranges::min_element(points, comes_before), points, squared));
   best.radius = std::numeric_limits<double>::infinity();
   for (int idle = 0;;) {
     const std::uint32_t far = farthest_from(circle.centre(), points, squared);

@@ -16,16 +16,26 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <type_traits>
 
 namespace copse {
 namespace {
 
+// Of this thread: what another program does meanwhile is no time of a fit's.
 double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// Roundings of a volume and of its bound may cross; more than that is an error, which is not hidden.
+double not_above(double v, double limit, const VolumeMeasures& of, const PointFrame& frame) {
+  constexpr double k_relative = 1e-9, k_of_thickness = 1e-13;
+  const double room = k_relative * limit + k_of_thickness * frame.scale * of.surface;
+  return v > limit && v <= limit + room ? limit : v;
 }
 
 }  // namespace
@@ -207,7 +217,7 @@ Fit slabs_of(const Prepared& p, int k) {
 
 // In the cloud: nothing that holds the hull is smaller, of whatever kind.
 double bound_of_hull(const Prepared& p) {
-  return p.hull().volume * (1 - 1e-9);
+  return p.hull().least_volume * (1 - 1e-9);
 }
 
 bool is_cheap(const FitMethod& method) {
@@ -270,10 +280,15 @@ std::optional<Volume<T>> as_kind(const Volume<T>& v, VolumeKind wanted) {
   return kind_of(v) == wanted ? std::optional(v) : std::nullopt;
 }
 
-// What a search must not be worse than, each in its own type: the cheaper methods of its kind, and of kinds
-// that are cases of it.
+// What a method must not be worse than, each in its own type: of kinds that are cases of its own what is as
+// quick, and of a search the cheaper methods of its kind.
 std::vector<Volume<double>> cheaper_fits(const FitMethod& method, const Prepared& p, const FitOptions& how) {
   std::vector<Volume<double>> out;
+  if (method.quick && (method.kind == VolumeKind::capsule || method.kind == VolumeKind::lozenge)) {
+    out.push_back(fit_entry(index_of(VolumeKind::sphere, "minimal"), p, how).volume);
+    if (method.kind == VolumeKind::lozenge)
+      out.push_back(fit_entry(index_of(VolumeKind::capsule, "least-squares"), p, how).volume);
+  }
   if (!method.least || method.kind == VolumeKind::kdop) return out;
   for (std::size_t i = 0; i < entries().size(); ++i) {
     const Entry& e = entries()[i];
@@ -359,7 +374,6 @@ std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const Fit
   const PointFrame& frame = p.cloud.frame;
   FittedVolume out;
   out.method = method;
-  out.fitted = frame.volume_out(measures_of(fit.volume).volume);
   bool held = false;
   const auto keep_if_less = [&](const Volume<float>& stored, bool certified) {
     const VolumeMeasures measures = measures_of(to_double(stored));
@@ -373,12 +387,13 @@ std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const Fit
   };
   keep_enclosed(placed(fit.volume, frame));
   // Rounding outward can turn the order, most where there is no thickness. Far larger ones need no rounding.
-  constexpr double k_worth = 2, k_unit = 0x1p-23;
+  constexpr double k_unit = 0x1p-23;
+  const double worth = method.quick ? 1 : 2;  // quick methods are not to take twice the time
   const double reach = length(frame.origin) + 2 * frame.scale;
   for (const Volume<double>& cheaper : cheaper_fits(method, p, options)) {
     const Volume<double> v = placed(cheaper, frame);
     const VolumeMeasures before = measures_of(v);
-    if (held && before.volume > k_worth * out.measures.volume + k_unit * reach * before.surface) continue;
+    if (held && before.volume > worth * out.measures.volume + k_unit * reach * before.surface) continue;
     keep_enclosed(*as_kind(v, method.kind));
     if (kind_of(v) == method.kind) continue;
     // As it is stored in its own type it has other numbers, which round otherwise.
@@ -396,20 +411,24 @@ std::optional<FittedVolume> VolumeFitter::fit(const FitMethod& method, const Fit
   }
   // A whisker below, so that the roundings of the bound itself cannot put it above the truth.
   const double bound = std::max(fit.lower_bound * (1 - 1e-12), method.on_hull ? bound_of_hull(p) : 0);
-  out.lower_bound = std::min(frame.volume_out(bound), out.measures.volume);
-  out.fitted = std::clamp(out.fitted, out.lower_bound, out.measures.volume);
+  // What was rounded outward may have been drawn in, too, or be a cheaper fit.
+  out.fitted = std::min(frame.volume_out(measures_of(fit.volume).volume), out.measures.volume);
+  out.lower_bound = not_above(frame.volume_out(bound), out.fitted, out.measures, frame);
   out.seconds = fitted - start;
   out.certify_seconds = now() - fitted;
   return out;
 }
 
 void VolumeFitter::share_lower_bounds(std::span<FittedVolume> volumes) const {
-  const double hull = has_hull() ? prepared_->cloud.frame.volume_out(bound_of_hull(*prepared_)) : 0;
+  const PointFrame& frame = prepared_->cloud.frame;
+  const double hull = has_hull() ? frame.volume_out(bound_of_hull(*prepared_)) : 0;
   for (FittedVolume& a : volumes) {
-    a.lower_bound = std::max(a.lower_bound, std::min(hull, a.measures.volume));
+    const auto raise = [&](double bound) {
+      a.lower_bound = std::max(a.lower_bound, not_above(bound, a.fitted, a.measures, frame));
+    };
+    raise(hull);
     for (const FittedVolume& b : volumes) {
-      if (a.method.kind == b.method.kind && a.method.kind != VolumeKind::kdop)
-        a.lower_bound = std::max(a.lower_bound, b.lower_bound);
+      if (a.method.kind == b.method.kind && a.method.kind != VolumeKind::kdop) raise(b.lower_bound);
     }
   }
 }

@@ -66,7 +66,7 @@ struct FittedVolume {
   double lower_bound = 0;  // of the interior volume of any volume of this kind round the points; 0: unknown
   bool certified = false;
   std::vector<Double3> support;  // of the minimal sphere: the points that hold it, in lexicographic order
-  double seconds = 0;            // for the fit alone; the hull is shared
+  double seconds = 0;            // of CPU time, for the fit alone; the hull is shared
   double certify_seconds = 0;    // for rounding it outward and proving it
 };
 

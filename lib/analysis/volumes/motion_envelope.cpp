@@ -74,8 +74,9 @@ std::vector<Double3> ball_envelope(std::span<const Double3> points, std::span<co
 
 std::vector<Double3> joint_envelope(std::span<const Double3> points, const Joint& joint, int steps) {
   const Double3 axis = normalized(joint.axis);
+  steps = std::max(steps, static_cast<int>(std::ceil(std::abs(joint.to - joint.from))));  // a radian at most
   const double step = (joint.to - joint.from) / steps;
-  const double outward = 1 / std::cos(std::min(std::abs(step), 1.0) / 2) * (1 + 1e-12);
+  const double outward = 1 / std::cos(std::abs(step) / 2) * (1 + 1e-12);
   std::vector<Double3> out;
   out.reserve(points.size() * static_cast<std::size_t>(steps + 1));
   for (const Double3& p : points) {

@@ -25,9 +25,9 @@ struct Joint {
   double from = 0, to = 0;
 };
 
-// Round the arcs that the points go through: the points at `steps` + 1 angles, moved outward from the axis so
-// that the chords between them enclose the arcs (by the sagitta, rho (1 / cos(angle / 2) - 1)). A whole turn
-// has its ends in common.
+// Round the arcs that the points go through: the points at `steps` + 1 angles (more where those would be more
+// than a radian apart), moved outward from the axis so that the chords between them enclose the arcs (by the
+// sagitta, rho (1 / cos(angle / 2) - 1)). A whole turn has its ends in common.
 std::vector<Double3> joint_envelope(std::span<const Double3> points, const Joint& joint, int steps = 32);
 
 // How far each vertex of a tree can be from its place at rest when the direction of every link of its
