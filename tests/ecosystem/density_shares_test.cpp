@@ -9,6 +9,8 @@
 namespace copse {
 namespace {
 
+const auto k_anywhere = [](std::uint64_t) { return GroundPlace{}; };
+
 // 8 x 8 cells of 1 m; the eastern half is three times as dense.
 DensityField halves() {
   DensityField f{{0, 0, 8, 8}, 8, 8, {}};
@@ -19,7 +21,12 @@ DensityField halves() {
 TEST(DensityShares, TellsWhatEveryDensityAskedForAndGot) {
   const std::vector<GroundPlace> feet{{1, 1}, {2, 7}, {3, 3}, {5, 5}, {7, 1}, {-1, 5}};
   const std::vector<Disc> discs{{6, 6, 1}, {7.9, 0.1, 0.5}, {0, 0, 0.25}, {20, 20, 9}};
-  const auto shares = density_shares(halves(), 6, feet, discs);
+  const auto shares = density_shares(
+      halves(), 6,
+      [](std::uint64_t i) {
+        return GroundPlace{1.0 + static_cast<double>(i), 4};
+      },
+      feet, discs);
   ASSERT_EQ(shares.size(), 2u);
   EXPECT_DOUBLE_EQ(shares[0].asked, 1.5);
   EXPECT_DOUBLE_EQ(shares[1].asked, 4.5);
@@ -30,13 +37,16 @@ TEST(DensityShares, TellsWhatEveryDensityAskedForAndGot) {
   EXPECT_NEAR(shares[0].to, 1 / 3.0, 0.002);
   EXPECT_EQ(shares[1].to, 1);
   EXPECT_DOUBLE_EQ(histogram_error(shares), (1.5 + 2.5) / 6);
+  EXPECT_EQ(shares[0].unhindered, 3u);
+  EXPECT_EQ(shares[1].unhindered, 3u);
+  EXPECT_EQ(out_of_their_part(shares), 0u);  // one in the east stands nowhere
 }
 
 TEST(DensityShares, PartsHaveAboutAnEighthOfTheMassEach) {
   DensityField f{{0, 0, 1, 1}, 100, 100, {}};
   Random random(1);
   for (int i = 0; i < 10000; ++i) f.weights.push_back(random.uniform());
-  const auto shares = density_shares(f, 800, {}, {});
+  const auto shares = density_shares(f, 800, k_anywhere, {}, {});
   ASSERT_EQ(shares.size(), 8u);
   double sum = 0;
   for (const DensityShare& s : shares) {
@@ -47,10 +57,16 @@ TEST(DensityShares, PartsHaveAboutAnEighthOfTheMassEach) {
   EXPECT_DOUBLE_EQ(histogram_error(shares), 1);  // none stands
 }
 
+TEST(DensityShares, WhatStandsWhereItWouldNotIsCountedOnce) {
+  const std::vector<GroundPlace> feet{{1, 1}, {2, 7}, {3, 3}, {5, 5}};
+  const auto shares = density_shares(halves(), 4, [](std::uint64_t) { return GroundPlace{6, 6}; }, feet, {});
+  EXPECT_EQ(out_of_their_part(shares), 3u);
+}
+
 TEST(DensityShares, AFieldThatIsEvenOrEmptyHasNoParts) {
-  EXPECT_TRUE(density_shares({}, 5, {}, {}).empty());
-  EXPECT_TRUE(density_shares({{0, 0, 1, 1}, 2, 1, {0, 0}}, 5, {}, {}).empty());
-  EXPECT_TRUE(density_shares({{0, 0, 1, 1}, 2, 2, {0, 7, 7, 7}}, 5, {}, {}).empty());
+  EXPECT_TRUE(density_shares({}, 5, k_anywhere, {}, {}).empty());
+  EXPECT_TRUE(density_shares({{0, 0, 1, 1}, 2, 1, {0, 0}}, 5, k_anywhere, {}, {}).empty());
+  EXPECT_TRUE(density_shares({{0, 0, 1, 1}, 2, 2, {0, 7, 7, 7}}, 5, k_anywhere, {}, {}).empty());
   EXPECT_EQ(histogram_error({}), 0);
 }
 

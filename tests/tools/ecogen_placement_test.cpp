@@ -2,6 +2,7 @@
 #include "lib/formats/ecosystem/ecosystem_file.h"
 #include "lib/formats/ecosystem/instance_codec.h"
 #include "lib/formats/import/image.h"
+#include "lib/formats/random.h"
 #include "lib/formats/tree_file/tree_file.h"
 #include "tests/tools/ecogen_folder.h"
 
@@ -252,7 +253,43 @@ TEST_F(Ecogen, WhereTheGroundIsTooFullForADensityItSaysSo) {
   EXPECT_NE(full.err.find("types[0] (a): where its density is highest the ground is full: "),
             std::string::npos)
       << full.err;
-  EXPECT_NE(full.err.find("the density asks for 1050"), std::string::npos) << full.err;
+  EXPECT_NE(full.err.find(" 1050 are asked for"), std::string::npos) << full.err;
+}
+
+// Maps whose pixels are smaller than a few pieces of the density, and feet that are in the way.
+TEST_F(Ecogen, WhatLeavesItsPartOfADensityIsToldOfHoweverFewAndFineItIs) {
+  Image image{.width = 17, .height = 13, .rgba = {}};
+  Random random(1);
+  for (int i = 0; i < 17 * 13; ++i) {
+    const auto grey = static_cast<std::uint8_t>(random.below(256));
+    image.rgba.insert(image.rgba.end(), {grey, grey, grey, 255});
+  }
+  ASSERT_TRUE(write_image(file("d.png"), image));
+  page_["terrain"] = Json::parse(R"({"size": [100, 100]})");
+  page_["types"][0] =
+      Json::parse(R"({"name": "oak", "tree": "a.stree", "count": 300, "spacing": 2.3, "density": "d.png"})");
+  page_["types"][1]["count"] = 0;
+  const std::string fine = run({"--report", file("r.json")}).err;
+  EXPECT_NE(fine.find("(oak): where its density is highest the ground is full: "), std::string::npos) << fine;
+  page_["types"][0]["spacing"] = 0.3;
+  EXPECT_EQ(run().err, "");
+  page_["types"][0]["spacing"] = 0.8;
+  EXPECT_EQ(run().err, "");
+  page_["types"][0]["avoid"] = {"b"};
+  page_["types"][1]["count"] = 8000;
+  page_["types"][1]["density"] = "d.png";
+  const std::string feet = run().err;
+  EXPECT_NE(
+      feet.find(
+          "types[0] (oak): where its density is highest the feet that it is to avoid leave no more room"),
+      std::string::npos)
+      << feet;
+  // No map, and no more than chance.
+  page_["types"][0].erase("density");
+  page_["types"][1].erase("density");
+  page_["types"][1]["count"] = 1000;
+  page_["types"][0]["distance"] = {{"map", "d.png"}, {"max", 3}};
+  EXPECT_EQ(run().err, "");
 }
 
 // A dozen trees are never where a map asks for a tenth of a tree: that is chance, and no fault of the ground.

@@ -17,6 +17,8 @@ namespace {
 // What the histogram of a density may be off by, and so many trees may have left their part of it unsaid.
 constexpr double k_histogram_error = 0.02;
 
+constexpr double k_full = 0.45;  // of the ground under discs: up to that a density is kept
+
 constexpr std::size_t k_most_samples = 20000;  // the largest of so many is known well enough
 
 // Largest, mean, 95 % and root mean square.
@@ -33,6 +35,23 @@ ErrorRecord record(std::string name, std::string unit, std::string reference, st
   std::nth_element(values.begin(), p95, values.end());
   r.p95 = *p95;
   return r;
+}
+
+std::string full_ground(const TypePlan& plan, std::uint64_t got, double asked, double covered) {
+  const bool has_map = plan.rules.density || plan.rules.share_of;
+  std::string why = "the ground is full", remedy = "lower count, spacing or scale";
+  if (covered < k_full && !plan.avoid.empty()) {
+    why = "the feet that it is to avoid leave no more room";
+    remedy = "name fewer in avoid, or " + remedy;
+  } else if (covered < k_full) {
+    why = "its discs are too large for the detail of its map and rules";
+  }
+  if (has_map) remedy += ", or the map's contrast";
+  return fmt::format(
+      "{}: where {} {}: {} stand there, {:.0f} are asked for (discs cover up to {:.0f} % of it); the others "
+      "stand where it is thinner; {}",
+      plan.name, has_map ? "its density is highest" : "its rules allow most", why, got, asked, 100 * covered,
+      remedy);
 }
 
 }  // namespace
@@ -54,15 +73,12 @@ void tell_densities(std::span<const TypePlan> plans, const Population& populatio
       got += s.got;
       covered = std::max(covered, s.covered);
     }
-    // Few trees are off by chance: what counts is that there was no room for them.
-    const auto moved = static_cast<double>(population.types[t].moved);
-    if (asked > 0 && moved > k_histogram_error * static_cast<double>(plans[t].count) &&
-        histogram_error(shares) > k_histogram_error)
-      context.warn(fmt::format(
-          "{}: where its density is highest the ground is full: {} stand there, the density asks for {:.0f} "
-          "(discs cover up to {:.0f} % of it, and no more fit at random); the others stand where it is "
-          "thinner; lower count, spacing or scale, or the map's contrast",
-          plans[t].name, got, asked, 100 * covered));
+    // Those that found their first place taken stand in this part or that by chance, few of them too.
+    const auto moved = static_cast<double>(population.types[t].moved),
+               hindered = static_cast<double>(population.types[t].hindered);
+    if (asked > 0 &&
+        moved > std::max(k_histogram_error * static_cast<double>(plans[t].count), 2 * std::sqrt(hindered)))
+      context.warn(full_ground(plans[t], got, asked, covered));
   }
   if (!table.rows.empty()) context.report().tables.push_back(std::move(table));
 }

@@ -1,9 +1,13 @@
 #include "lib/analysis/ecosystem/density_shares.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <optional>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 namespace copse {
 namespace {
@@ -75,6 +79,7 @@ class Parts {
 }  // namespace
 
 std::vector<DensityShare> density_shares(const DensityField& field, std::uint64_t trees,
+                                         const std::function<GroundPlace(std::uint64_t)>& unhindered,
                                          std::span<const GroundPlace> feet, std::span<const Disc> discs) {
   if (field.weights.empty()) return {};
   Parts parts(field);
@@ -82,6 +87,14 @@ std::vector<DensityShare> density_shares(const DensityField& field, std::uint64_
   std::vector<DensityShare>& shares = parts.shares;
   for (const GroundPlace& at : feet)
     if (const auto part = parts.part_at(at.x, at.z)) ++shares[*part].got;
+  std::vector<std::atomic<std::uint64_t>> counts(shares.size());
+  tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, trees, 1024), [&](const auto& range) {
+    for (std::uint64_t i = range.begin(); i < range.end(); ++i) {
+      const GroundPlace at = unhindered(i);
+      if (const auto part = parts.part_at(at.x, at.z)) counts[*part].fetch_add(1, std::memory_order_relaxed);
+    }
+  });
+  for (std::size_t p = 0; p < shares.size(); ++p) shares[p].unhindered = counts[p];
   for (const Disc& d : discs)
     if (const auto part = parts.part_at(d.x, d.z))
       shares[*part].covered += std::numbers::pi * d.radius * d.radius;
@@ -99,6 +112,12 @@ double histogram_error(std::span<const DensityShare> shares) {
     all += s.asked;
   }
   return all > 0 ? off / all : 0;
+}
+
+std::uint64_t out_of_their_part(std::span<const DensityShare> shares) {
+  std::uint64_t out = 0;
+  for (const DensityShare& s : shares) out += s.got > s.unhindered ? s.got - s.unhindered : 0;
+  return out;
 }
 
 }  // namespace copse

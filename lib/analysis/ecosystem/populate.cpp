@@ -243,23 +243,27 @@ class Planter {
       };
     const ApartCounts counts = spread_apart(wanted, field, spreader, test, stream(t, stream_place), spacing_);
     out_.types[t].missing = counts.missing;
-    out_.types[t].moved = counts.moved;
+    out_.types[t].hindered = counts.hindered;
     if (out_.types[t].missing > 0 && !p.fewer)
       return refuse("",
                     fmt::format("{}: {} asked for, there is room for {} at this spacing", p.name, p.count,
                                 random_ones_[t].size()),
                     "lower count or spacing, or set \"fewer\" to take what fits");
-    take_shares(t, field);
+    take_shares(t, field, [&](std::uint64_t i) {
+      return unhindered_place(i, p.count, spreader, test, stream(t, stream_place));
+    });
     return {};
   }
 
-  void take_shares(std::size_t t, const DensityField& field) {
+  void take_shares(std::size_t t, const DensityField& field,
+                   const std::function<GroundPlace(std::uint64_t)>& unhindered) {
     std::vector<GroundPlace> feet;
     for (const Instance& i : random_ones_[t]) {
       feet.push_back({i.position.x, i.position.z});
       discs_.push_back({i.position.x, i.position.z, types_[t].spacing * i.scale});
     }
-    out_.types[t].by_density = density_shares(field, types_[t].count, feet, discs_);
+    out_.types[t].by_density = density_shares(field, types_[t].count, unhindered, feet, discs_);
+    out_.types[t].moved = out_of_their_part(out_.types[t].by_density);
   }
 
   double least_scale(const TypePlan& p, const Patch& at) const {

@@ -55,7 +55,8 @@ struct TypeCounts {
   std::uint64_t crowded = 0;      // reach out of their cell: no promise that they do not touch
   std::uint64_t overlapping = 0;  // by hand, with spacing: discs that overlap one by hand before them
   std::uint64_t missing = 0;      // did not fit, with `fewer`
-  std::uint64_t moved = 0;        // of a type with spacing: its part of the density was full (spread_apart.h)
+  std::uint64_t hindered = 0;     // of a type with spacing: where it would have stood was no room
+  std::uint64_t moved = 0;        // of these: stand in other parts of their density (density_shares.h)
   std::vector<DensityShare> by_density{};  // of a type with spacing
 };
 

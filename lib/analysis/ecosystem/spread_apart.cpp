@@ -14,11 +14,11 @@ namespace {
 constexpr int k_tries_in_piece = 8, k_darts = 4;
 // So many in a row that find no place in their own piece: what is left goes to the search for gaps at once.
 constexpr int k_failures_in_a_row = 64;
-constexpr std::uint64_t k_group = 32;    // pieces
-constexpr double k_finest = 0.125;       // of the radius
+constexpr std::uint64_t k_group = 32;  // pieces
+constexpr double k_finest = 0.125;     // of the radius
 // Discs round a patch that are looked at together, and round one that is too small for darts.
 constexpr std::size_t k_most_near = 24, k_most_at_last = 256;
-constexpr int k_barren = 6;              // halvings of a patch in which no dart hits ground that is allowed
+constexpr int k_barren = 6;  // halvings of a patch in which no dart hits ground that is allowed
 
 // What is in the way of a disc: others, and feet.
 class Room {
@@ -155,18 +155,17 @@ class Apart {
 
   ApartCounts spread() {
     std::vector<std::uint64_t> left = try_own_pieces();
-    if (left.empty()) return {};
+    if (left.empty()) return {0, hindered_};
     std::vector<Group> groups = groups_of(left);
     left = {};
     const auto all = static_cast<double>(2 * groups.size());
-    std::uint64_t searched = 0, own = 0;  // own: found room among the pieces of their group
-    for (bool first = true;; first = false) {
+    std::uint64_t searched = 0;
+    while (true) {
       for (Group& g : groups) {
         search(g, random_.fork(wanted_.count + 1 + searched++));
         tell(0.5 + 0.5 * static_cast<double>(searched) / all);
       }
-      if (first) own = placed_;
-      if (groups.size() == 1) return {groups[0].waiting.size(), placed_ - own};
+      if (groups.size() == 1) return {groups[0].waiting.size(), hindered_};
       groups = joined(std::move(groups));
     }
   }
@@ -177,7 +176,6 @@ class Apart {
   }
 
   void put(std::uint64_t disc, const Disc& at) {
-    ++placed_;
     room_.add(at);
     wanted_.place(disc, {at.x, at.z});
   }
@@ -192,6 +190,7 @@ class Apart {
     for (std::size_t k = 0; k < order.size(); ++k) {
       if (failures == k_failures_in_a_row) {
         left.insert(left.end(), order.begin() + static_cast<std::ptrdiff_t>(k), order.end());
+        hindered_ += order.size() - k;
         break;
       }
       if (k % 1024 == 0) tell(0.5 * static_cast<double>(k) / static_cast<double>(order.size()));
@@ -208,6 +207,7 @@ class Apart {
   bool try_own_piece(std::uint64_t disc) {
     Random random = random_.fork(disc);
     for (int n = 0; n < k_tries_in_piece; ++n) {
+      hindered_ += n == 1;
       const GroundPlace at = spreader_.draw(disc, wanted_.count, test_, random);
       const Disc d{at.x, at.z, wanted_.radius(disc, at)};
       if (!room_.is_free(d)) continue;
@@ -336,10 +336,16 @@ class Apart {
   const PlacementTest& test_;
   const Random& random_;
   Room room_;
-  std::uint64_t placed_ = 0;
+  std::uint64_t hindered_ = 0;
 };
 
 }  // namespace
+
+GroundPlace unhindered_place(std::uint64_t disc, std::uint64_t count, const Spreader& spreader,
+                             const PlacementTest& test, const Random& random) {
+  Random first = random.fork(disc);
+  return spreader.draw(disc, count, test, first);
+}
 
 ApartCounts spread_apart(const DiscsApart& wanted, const DensityField& field, const Spreader& spreader,
                          const PlacementTest& test, const Random& random, Spacing& discs) {

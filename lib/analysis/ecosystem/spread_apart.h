@@ -4,11 +4,11 @@
 // Every disc first tries its own piece of the field's mass (spread.h), in a random order. For those that find
 // none there, gaps are searched: patches of ground that the discs together do not cover (disc_cover.h), grown
 // by the smallest radius that waits, are thrown darts at and halved, first those of 32 pieces side by side,
-// then of twice as many, up to the whole field. So a disc leaves its part of the field only when that is full,
-// and one that is left over found no gap anywhere. Ground that is full is known to be so and not looked at
-// again. Where a patch is too small for darts a disc goes into the middle of its opening: what can be missed
-// is one of several gaps within an eighth of the disc's radius, a gap there of which the rules forbid the
-// middle, and ground of which they allow less than a part in some hundred.
+// then of twice as many, up to the whole field. So a disc leaves its part of the field only when that is
+// full, and one that is left over found no gap anywhere. Ground that is full is known to be so and not looked
+// at again. Where a patch is too small for darts a disc goes into the middle of its opening: what can be
+// missed is one of several gaps within an eighth of the disc's radius, a gap there of which the rules forbid
+// the middle, and ground of which they allow less than a part in some hundred.
 //
 // Source: patches and darts are those of Ebeida, Mitchell, Patney, Davidson, Owens, "A simple algorithm for
 // maximal Poisson-disk sampling in high dimensions" (Eurographics 2012). O((discs + cells) log discs).
@@ -37,9 +37,13 @@ struct DiscsApart {
 };
 
 struct ApartCounts {
-  std::uint64_t missing = 0;  // found no room
-  std::uint64_t moved = 0;    // found it elsewhere than in the 32 pieces that theirs is one of
+  std::uint64_t missing = 0;   // found no room
+  std::uint64_t hindered = 0;  // where they would have stood, had there been room
 };
+
+// Where disc number `disc` would stand if there were room for all.
+GroundPlace unhindered_place(std::uint64_t disc, std::uint64_t count, const Spreader& spreader,
+                             const PlacementTest& test, const Random& random);
 
 // Adds the discs to those that are in the way already. `spreader` and `test` are of `field`;
 // spreader.total() > 0.
