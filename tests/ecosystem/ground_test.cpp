@@ -122,5 +122,26 @@ TEST(Ground, BesideAWallTheVertexIsAllThereIs) {
   EXPECT_EQ(GroundBeside(t, ground).at(-1, 1).height, 3);
 }
 
+// Layers of a nearly upright surface, a millimetre thick: each place has many triangles below it.
+TEST(Ground, ManyLayersAreLookedThroughInAFewBuckets) {
+  constexpr std::uint32_t k_side = 400;
+  Terrain t;
+  t.columns = t.rows = k_side;
+  std::vector<Float3> points;
+  Random random(4);
+  for (std::uint32_t r = 0; r < k_side; ++r)
+    for (std::uint32_t c = 0; c < k_side; ++c)
+      points.push_back(
+          {static_cast<float>(random.uniform(0, 1e-3)), static_cast<float>(c), static_cast<float>(r)});
+  t.points = points;
+  const TerrainGround ground(t);
+  for (int n = 0; n < 20; ++n) {
+    const double x = random.uniform(3e-4, 7e-4), z = random.uniform(1, k_side - 2);
+    const auto here = ground.at(x, z);
+    ASSERT_TRUE(here);
+    EXPECT_GT(here->height, k_side - 20.0);  // nearly the topmost layer has it
+  }
+}
+
 }  // namespace
 }  // namespace copse

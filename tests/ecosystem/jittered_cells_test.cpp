@@ -12,25 +12,53 @@ namespace {
 
 using Counts = std::vector<std::uint64_t>;
 
-TEST(JitteredCells, TheSideIsTheSmallestWhoseSquareHoldsAll) {
-  EXPECT_EQ(cells_a_side(0), 0u);
-  EXPECT_EQ(cells_a_side(1), 1u);
-  EXPECT_EQ(cells_a_side(4), 2u);
-  EXPECT_EQ(cells_a_side(5), 3u);
-  EXPECT_EQ(cells_a_side(1000000), 1000u);
-  EXPECT_EQ(cells_a_side(1000001), 1001u);
-  EXPECT_EQ(cells_a_side((std::uint64_t{1} << 40) - 1), std::uint64_t{1} << 20);
+TEST(JitteredCells, OverASquareTheSideIsTheSmallestWhoseSquareHoldsAll) {
+  for (const auto& [instances, side] : {std::pair<std::uint64_t, std::uint64_t>{1, 1},
+                                        {4, 2},
+                                        {5, 3},
+                                        {6, 3},
+                                        {1000000, 1000},
+                                        {1000001, 1001},
+                                        {(std::uint64_t{1} << 40) - 1, std::uint64_t{1} << 20}}) {
+    const CellGrid grid = cells_over(12.5, 12.5, instances);
+    EXPECT_EQ(grid.columns, side);
+    EXPECT_EQ(grid.rows, side);
+  }
+  EXPECT_EQ(cells_over(5, 5, 0).cells(), 0u);
+}
+
+TEST(JitteredCells, OverOtherShapesTheyAreAsSquareAsTheyCanBe) {
+  const CellGrid strip = cells_over(1000, 10, 500);
+  EXPECT_EQ(strip.columns, 250u);
+  EXPECT_EQ(strip.rows, 2u);
+  EXPECT_EQ(cells_over(10, 1000, 500).columns, 2u);
+  const CellGrid line = cells_over(1e9, 1e-3, 7);
+  EXPECT_EQ(line.columns, 7u);
+  EXPECT_EQ(line.rows, 1u);
+  Random random(2);
+  for (int n = 0; n < 2000; ++n) {
+    const double width = random.uniform(1, 100), depth = random.uniform(1, 100);
+    const std::uint64_t count = 1 + random.below(5000);
+    const CellGrid grid = cells_over(width, depth, count);
+    EXPECT_GE(grid.cells(), count);
+    EXPECT_LT(grid.cells(), 5 * count);
+    // No grid of square cells has larger ones.
+    const double cell = std::min(width / static_cast<double>(grid.columns),
+                                 depth / static_cast<double>(grid.rows)),
+                 larger = cell * 1.001;
+    EXPECT_LT(std::floor(width / larger) * std::floor(depth / larger), static_cast<double>(count)) << n;
+  }
 }
 
 TEST(JitteredCells, CountsAreKeptAndNoCellIsUsedTwice) {
   for (const Counts& counts : {Counts{}, Counts{0}, Counts{1}, Counts{0, 7, 0, 2}, Counts{16},
                                Counts{500, 300, 199, 1}, Counts{1, 9999}}) {
     const std::uint64_t total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
-    const std::uint64_t side = std::max<std::uint64_t>(cells_a_side(total), 1);
-    const CellPlaces places = place_in_cells(counts, side * side, Random(1));
+    const std::uint64_t cells = cells_over(3, 2, total).cells();
+    const CellPlaces places = place_in_cells(counts, cells, Random(1));
     EXPECT_EQ(places.cells.size(), total);
     EXPECT_EQ(std::set<std::uint64_t>(places.cells.begin(), places.cells.end()).size(), total);
-    for (const std::uint64_t c : places.cells) EXPECT_LT(c, side * side);
+    for (const std::uint64_t c : places.cells) EXPECT_LT(c, cells);
   }
 }
 

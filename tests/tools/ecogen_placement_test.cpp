@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -167,8 +168,8 @@ TEST_F(Ecogen, TheCrownsReachCountsTurningAndLeaning) {
   const auto box = TreeFile::open(file("a.stree"))->header().bounds;
   const double x = std::max(std::abs(double{box.min.x}), std::abs(double{box.max.x})),
                z = std::max(std::abs(double{box.min.z}), std::abs(double{box.max.z}));
-  // 200 in cells of 60 / 15 by 40 / 15 m, upright: the corner of the box just fits, or just does not.
-  const double fits = 40 / 15.0 / 2 / std::hypot(x, z);
+  // 200 in cells of 60 / 18 by 40 / 12 m, upright: the corner of the box just fits, or just does not.
+  const double fits = 40 / 12.0 / 2 / std::hypot(x, z);
   page_["types"][0]["scale"] = 0.999 * fits;
   EXPECT_EQ(run().err.find("larger than their cell"), std::string::npos);
   page_["types"][0]["tilt"] = {{"pitch", 10}};
@@ -349,6 +350,30 @@ TEST_F(Ecogen, SpacedTypesKeepOffTheFeetThatTheyAreToAvoid) {
   page_["types"][1]["avoid"] = {"a"};
   page_["types"][1].erase("spacing");
   EXPECT_NE(refusal().find("types[1].avoid: 'b' has no spacing"), std::string::npos);
+}
+
+// Of a slope of 45 degrees towards +x.
+TEST_F(Ecogen, ByHandWhatIsSaidOfPitchAndRollIsKept) {
+  page_["terrain"] =
+      Json::parse(R"({"size": [20, 20], "nurbs": {"degree": [1, 1], "heights": [[0, 20], [0, 20]]}})");
+  page_["materials"] = Json::array();
+  page_["types"].erase(1);
+  page_["types"][0].erase("count");
+  page_["types"][0]["instances"] = Json::parse(
+      R"([{"x": 2, "z": 5}, {"x": 4, "z": 5, "head": 30}, {"x": 6, "z": 5, "pitch": 0}, {"x": 8, "z": 5, "roll": 0.001}])");
+  write_text(file("more.csv"), "type, x ,z,pitch,roll\n a,+10,5,,\na, 12,5,0,0\n\"a\",14,5 ,,0\n");
+  const Outcome o = run({"--instances", file("more.csv")});
+  ASSERT_EQ(o.status, 0) << o.err;
+  const Ecosystem eco = load();
+  std::map<int, double> up;
+  for (const InstanceBlock& b : eco.blocks)
+    for (std::size_t i = b.first; i < b.first + b.count; ++i) {
+      const Instance instance = instance_of(eco, b, i);
+      up[static_cast<int>(std::lround(instance.position.x))] = rotate(instance.rotation, {0, 1, 0}).y;
+    }
+  ASSERT_EQ(up.size(), 7u);
+  for (const int along : {2, 4, 10}) EXPECT_NEAR(up[along], std::sqrt(0.5), 1e-5) << along;
+  for (const int upright : {6, 8, 12, 14}) EXPECT_NEAR(up[upright], 1, 1e-5) << upright;
 }
 
 TEST_F(Ecogen, TreesLargerThanTheirCellsAreWarnedOfAndShowNoGrid) {

@@ -345,6 +345,10 @@ v.validateBytes(new Uint8Array(fs.readFileSync(process.argv[2]))).then(r => {
   const std::string modules = root.out.substr(0, root.out.find('\n'));
   const char* own = std::getenv("NODE_PATH");
   for (const char* name : {"f.glb", "n.glb"}) {
+    const std::string glb = read_text(file(name));
+    const std::string json = glb.substr(20, glb.find("BIN", 20) - 24);
+    EXPECT_TRUE(Json::parse(json)["meshes"][0]["primitives"][0]["attributes"].contains("NORMAL"))
+        << "terrain";
     const Outcome o = run_process({"/bin/sh", "-c", "node '" + file("check.js") + "' '" + file(name) + "'"},
                                   {"NODE_PATH=" + (own ? std::string(own) + ":" : "") + modules});
     if (o.err.find("Cannot find module") != std::string::npos || o.status == 127)

@@ -58,9 +58,8 @@ Instance instance_of(const PlantedSource& p, const TypeSource& type, GroundBesid
   const GroundPoint here = ground.at(p.x, p.z);
   i.position = {p.x, p.y.value_or(here.height), p.z};
   i.on_ground = !p.y;
-  const Quaternion tilt = tilt_of(p.pitch, p.roll);
-  const bool upright = p.pitch == 0 && p.roll == 0;
-  i.along_normal = upright && type.tilt_to_ground;
+  const Quaternion tilt = tilt_of(p.pitch.value_or(0), p.roll.value_or(0));
+  i.along_normal = type.tilt_to_ground && !p.pitch && !p.roll;
   i.rotation = with_head(i.along_normal ? tilt_to(here.normal) : tilt, p.head);
   i.scale = p.scale;
   i.trunk_material = p.trunk_material;

@@ -1,6 +1,7 @@
 #include "tools/ecogen/export_eco.h"
 
 #include "lib/formats/ecosystem/instance_codec.h"
+#include "lib/formats/ecosystem/terrain_normal.h"
 #include "lib/formats/export/export.h"
 #include "lib/formats/export/instancing.h"
 #include "lib/formats/import/image.h"
@@ -127,6 +128,7 @@ Mesh terrain_mesh(const Ecosystem& eco) {
     for (std::uint32_t c = 0; c < t.columns; ++c) {
       const Double3 p = t.vertex(c, r);
       mesh.positions.push_back(p - eco.origin);
+      mesh.normals.push_back(to_float(terrain_normal(t, c, r)));
       mesh.texcoords.push_back({static_cast<float>(p.x / double{t.texture_size}),
                                 static_cast<float>(-p.z / double{t.texture_size})});
     }
@@ -136,7 +138,7 @@ Mesh terrain_mesh(const Ecosystem& eco) {
       mesh.triangles.push_back({a, below, below + 1});
       mesh.triangles.push_back({a, below + 1, a + 1});
     }
-  mesh.texcoord_triangles = mesh.triangles;
+  mesh.texcoord_triangles = mesh.normal_triangles = mesh.triangles;
   mesh.part_of.assign(mesh.triangles.size(), 0);
   mesh.parts = {{.object = "terrain", .group = "terrain", .material = t.material}};
   return mesh;

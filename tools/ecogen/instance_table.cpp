@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -45,10 +46,20 @@ std::string field(const std::string& text) {
   return out + "\"";
 }
 
+// Blanks round a field that is not quoted are its table's looks.
+void trim(std::string& field) {
+  const std::size_t first = field.find_first_not_of(" \t");
+  field = first == std::string::npos ? "" : field.substr(first, field.find_last_not_of(" \t") - first + 1);
+}
+
 // One row; `rest` begins behind it. None when a quote is never closed.
 std::optional<std::vector<std::string>> next_row(std::string_view& rest) {
   std::vector<std::string> fields(1);
-  bool quoted = false;
+  bool quoted = false, kept = false;  // kept: the field was in quotes
+  const auto finish = [&] {
+    if (!kept) trim(fields.back());
+    kept = false;
+  };
   std::size_t i = 0;
   for (; i < rest.size(); ++i) {
     const char c = rest[i];
@@ -59,9 +70,11 @@ std::optional<std::vector<std::string>> next_row(std::string_view& rest) {
         fields.back() += rest[++i];
       else
         quoted = false;
-    } else if (c == '"' && fields.back().empty()) {
-      quoted = true;
+    } else if (c == '"' && fields.back().find_first_not_of(" \t") == std::string::npos && !kept) {
+      fields.back().clear();
+      quoted = kept = true;
     } else if (c == ',') {
+      finish();
       fields.emplace_back();
     } else if (c == '\n') {
       break;
@@ -70,13 +83,18 @@ std::optional<std::vector<std::string>> next_row(std::string_view& rest) {
     }
   }
   if (quoted) return std::nullopt;
+  finish();
   rest.remove_prefix(std::min(i + 1, rest.size()));
   return fields;
 }
 
 class TableReader {
  public:
-  TableReader(const std::string& file, Scene& scene) : file_(file), scene_(scene) {}
+  TableReader(const std::string& file, Scene& scene) : file_(file) {
+    for (TypeSource& t : scene.types) types_.emplace(t.name, &t);
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+      materials_.emplace(scene.materials[m].name, static_cast<std::uint32_t>(m));
+  }
 
   Result<void> read(std::string_view rest) {
     constexpr std::string_view k_mark = "\xef\xbb\xbf";  // spreadsheets put it before UTF-8
@@ -124,7 +142,8 @@ class TableReader {
   Result<void> number(const std::string& text, Column column, double low, double high, Number& out) const {
     if (text.empty()) return {};
     double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const char* first = text.data() + (text.front() == '+' && text.size() > 1 && text[1] != '-');
+    const auto [end, error] = std::from_chars(first, text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || !(value >= low && value <= high) ||
         (std::is_integral_v<Number> && value != std::floor(value)))
       return wrong(fmt::format("{} '{}' is not allowed", k_columns[column], text),
@@ -136,34 +155,33 @@ class TableReader {
 
   Result<void> material(const std::string& name, Column column, std::uint32_t& out) const {
     if (name.empty()) return {};
-    const auto at = std::find_if(scene_.materials.begin(), scene_.materials.end(),
-                                 [&](const Material& m) { return m.name == name; });
-    if (at == scene_.materials.end())
+    const auto at = materials_.find(name);
+    if (at == materials_.end())
       return wrong(fmt::format("{}: there is no material called '{}'", k_columns[column], name),
                    "add it to the page");
-    out = static_cast<std::uint32_t>(at - scene_.materials.begin());
+    out = at->second;
     return {};
   }
 
   Result<void> add(const std::vector<std::string>& row) {
     std::array<std::string, k_columns.size()> f;
     for (std::size_t i = 0; i < row.size(); ++i) f[at_[i]] = row[i];
-    const auto type = std::find_if(scene_.types.begin(), scene_.types.end(),
-                                   [&](const TypeSource& t) { return t.name == f[c_type]; });
-    if (type == scene_.types.end())
+    const auto known = types_.find(f[c_type]);
+    if (known == types_.end())
       return wrong(fmt::format("there is no type called '{}'", f[c_type]), "add it to the page");
+    TypeSource* const type = known->second;
     PlantedSource p;
     p.trunk_material = type->trunk_material;
     p.leaf_material = type->leaf_material;
     p.motion = type->motion;
     if (f[c_x].empty() || f[c_z].empty()) return wrong("x or z is empty");
-    double y = 0;
+    double y = 0, pitch = 0, roll = 0;
     Result<void> state;
     const auto take = [&](Column c, double low, double high, auto& out) {
       if (state) state = number(f[c], c, low, high, out);
     };
     take(c_x, -1e9, 1e9, p.x), take(c_y, -1e9, 1e9, y), take(c_z, -1e9, 1e9, p.z);
-    take(c_head, -1e9, 1e9, p.head), take(c_pitch, -1e9, 1e9, p.pitch), take(c_roll, -1e9, 1e9, p.roll);
+    take(c_head, -1e9, 1e9, p.head), take(c_pitch, -1e9, 1e9, pitch), take(c_roll, -1e9, 1e9, roll);
     take(c_scale, 1e-31, 1e6, p.scale);  // a page takes 1e-30, and what is stored may round below it
     take(c_motion, 0, 4294967295.0, p.motion);
     take(c_red, 0, 255, p.tint[0]), take(c_green, 0, 255, p.tint[1]), take(c_blue, 0, 255, p.tint[2]);
@@ -171,12 +189,15 @@ class TableReader {
     if (state) state = material(f[c_leaf], c_leaf, p.leaf_material);
     if (!state) return state;
     if (!f[c_y].empty()) p.y = y;
+    if (!f[c_pitch].empty()) p.pitch = pitch;
+    if (!f[c_roll].empty()) p.roll = roll;
     type->planted.push_back(p);
     return {};
   }
 
   const std::string& file_;
-  Scene& scene_;
+  std::map<std::string, TypeSource*> types_;  // by name
+  std::map<std::string, std::uint32_t> materials_;
   std::size_t line_ = 1;
   std::vector<std::size_t> at_;  // which column of ours each of theirs is
 };

@@ -249,7 +249,9 @@ class Reader {
     PlantedSource p;
     p.x = j["x"].get<double>(), p.z = j["z"].get<double>();
     if (j.contains("y")) p.y = j["y"].get<double>();
-    p.head = j.value("head", 0.0), p.pitch = j.value("pitch", 0.0), p.roll = j.value("roll", 0.0);
+    p.head = j.value("head", 0.0);
+    if (j.contains("pitch")) p.pitch = j["pitch"].get<double>();
+    if (j.contains("roll")) p.roll = j["roll"].get<double>();
     p.scale = j.value("scale", 1.0);
     p.trunk_material = j.contains("trunk_material") ? material(j, "trunk_material", path) : t.trunk_material;
     p.leaf_material = j.contains("leaf_material") ? material(j, "leaf_material", path) : t.leaf_material;

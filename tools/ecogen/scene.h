@@ -24,10 +24,11 @@ struct MapSource {
   friend auto operator<=>(const MapSource&, const MapSource&) = default;
 };
 
-// An instance by hand, its materials still names; y when it does not stand on the ground.
+// An instance by hand; y when it does not stand on the ground, pitch or roll when it does not lean as its
+// type.
 struct PlantedSource {
-  std::optional<double> y;
-  double x = 0, z = 0, head = 0, pitch = 0, roll = 0, scale = 1;
+  std::optional<double> y, pitch, roll;
+  double x = 0, z = 0, head = 0, scale = 1;
   std::uint32_t trunk_material = k_none, leaf_material = k_none, motion = 0;
   std::array<std::uint8_t, 3> tint{255, 255, 255};
 };

@@ -1,5 +1,7 @@
 #include "tools/treeplay/forest.h"
 
+#include "lib/formats/ecosystem/terrain_normal.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,20 +19,6 @@ constexpr std::array<double, 7> k_surroundings{1.02, 1.1, 1.4, 2.5, 6, 18, 60};
 Float2 texcoord(const Double3& p, const Double3& origin, const Terrain& terrain) {
   const double size = double{terrain.texture_size};
   return {static_cast<float>((p.x + origin.x) / size), static_cast<float>(-(p.z + origin.z) / size)};
-}
-
-// Of a vertex, from the triangles round it; it points up.
-Double3 normal_of(const Terrain& t, std::uint32_t column, std::uint32_t row) {
-  Double3 normal;
-  for (std::uint32_t r = row == 0 ? 0 : row - 1; r <= row && r + 1 < t.rows; ++r)
-    for (std::uint32_t c = column == 0 ? 0 : column - 1; c <= column && c + 1 < t.columns; ++c) {
-      // Cell a b / d e is cut from a to e.
-      const Double3 a = t.vertex(c, r), e = t.vertex(c + 1, r + 1);
-      if (c == column || r != row) normal += cross(t.vertex(c, r + 1) - a, e - a);
-      if (c != column || r == row) normal += cross(e - a, t.vertex(c + 1, r) - a);
-    }
-  normal = normalized(normal);
-  return normal.y < 0 ? -normal : normal;
 }
 
 }  // namespace
@@ -93,7 +81,7 @@ ForestGround::ForestGround(const Terrain& terrain, const Double3& origin, TreeGe
     for (std::uint32_t c = 0; c < columns_; ++c) {
       const Double3 p = terrain.vertex(c, r) - origin;
       geometry.vertices[first_ + std::size_t{r} * columns_ + c] = {
-          to_float(p), to_float(normal_of(terrain, c, r)), texcoord(p, origin, terrain)};
+          to_float(p), to_float(terrain_normal(terrain, c, r)), texcoord(p, origin, terrain)};
     }
   };
   tbb::parallel_invoke([&] { tiles_ = TerrainTiles(terrain); },

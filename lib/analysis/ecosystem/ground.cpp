@@ -11,6 +11,9 @@ namespace {
 
 using Triangle = std::array<Double3, 3>;
 
+constexpr double k_most_buckets = 4096 * 4096;
+constexpr std::uint64_t k_most_entries = 8;  // buckets that a triangle is in, in the mean
+
 // Triangle 2 * cell + 0 is (a, c, d), + 1 is (a, d, b).
 Triangle triangle_of(const Terrain& t, std::uint32_t index) {
   const std::uint32_t cell = index / 2, columns = t.columns - 1, c = cell % columns, r = cell / columns;
@@ -47,18 +50,43 @@ TerrainGround::TerrainGround(const Terrain& terrain) : terrain_(terrain) {
   fill_buckets();
 }
 
+std::array<std::uint32_t, 4> TerrainGround::buckets_of(const Triangle& t) const {
+  if (doubled_area(t) == 0) return {};
+  const auto [xl, xh] = std::minmax({t[0].x, t[1].x, t[2].x});
+  const auto [zl, zh] = std::minmax({t[0].z, t[1].z, t[2].z});
+  return {bucket(xl, x0_, x1_, across_), bucket(zl, z0_, z1_, down_), bucket(xh, x0_, x1_, across_) + 1,
+          bucket(zh, z0_, z1_, down_) + 1};
+}
+
+// Square ones, about one a cell of the surface; fewer where triangles lie one over another in so many that
+// they would be in too many buckets.
+void TerrainGround::choose_buckets(std::uint32_t triangles) {
+  const double width = x1_ - x0_, depth = z1_ - z0_, cells = std::min(triangles / 2.0, k_most_buckets);
+  const auto count = [&](double side, double other) {
+    if (!(side > 0)) return 1u;
+    const double wanted = other > 0 ? std::sqrt(cells * (side / other)) : cells;
+    return static_cast<std::uint32_t>(std::clamp(wanted, 1.0, std::max(1.0, cells)));
+  };
+  across_ = count(width, depth), down_ = count(depth, width);
+  const auto entries = [&] {
+    std::uint64_t sum = 0;
+    for (std::uint32_t i = 0; i < triangles; ++i) {
+      const auto [c0, r0, c1, r1] = buckets_of(triangle_of(terrain_, i));
+      sum += std::uint64_t{c1 - c0} * (r1 - r0);
+    }
+    return sum;
+  };
+  while (across_ * down_ > 1 && entries() > k_most_entries * triangles)
+    (across_ > down_ ? across_ : down_) = (std::max(across_, down_) + 1) / 2;
+}
+
 void TerrainGround::fill_buckets() {
   const std::uint32_t count = 2 * (terrain_.columns - 1) * (terrain_.rows - 1);
-  const auto side = static_cast<std::uint32_t>(std::clamp(std::sqrt(count / 2.0), 1.0, 4096.0));
-  across_ = down_ = side;
+  choose_buckets(count);
   const auto visit = [&](std::uint32_t i, auto&& action) {
-    const Triangle t = triangle_of(terrain_, i);
-    if (doubled_area(t) == 0) return;
-    const auto [xl, xh] = std::minmax({t[0].x, t[1].x, t[2].x});
-    const auto [zl, zh] = std::minmax({t[0].z, t[1].z, t[2].z});
-    const std::uint32_t c1 = bucket(xh, x0_, x1_, across_), r1 = bucket(zh, z0_, z1_, down_);
-    for (std::uint32_t r = bucket(zl, z0_, z1_, down_); r <= r1; ++r)
-      for (std::uint32_t c = bucket(xl, x0_, x1_, across_); c <= c1; ++c) action(r * across_ + c);
+    const auto [c0, r0, c1, r1] = buckets_of(triangle_of(terrain_, i));
+    for (std::uint32_t r = r0; r < r1; ++r)
+      for (std::uint32_t c = c0; c < c1; ++c) action(r * across_ + c);
   };
   first_.assign(std::size_t{across_} * down_ + 1, 0);
   for (std::uint32_t i = 0; i < count; ++i) visit(i, [&](std::size_t b) { ++first_[b + 1]; });

@@ -8,6 +8,7 @@
 #include "lib/analysis/leaves/nearest_points.h"
 #include "lib/formats/ecosystem/ecosystem.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -43,6 +44,9 @@ class TerrainGround {
  private:
   GroundPoint at_regular(double x, double z) const;
   std::optional<GroundPoint> at_free(double x, double z) const;
+  void choose_buckets(std::uint32_t triangles);
+  // First column and row, and those behind the last; all 0 of what is upright.
+  std::array<std::uint32_t, 4> buckets_of(const std::array<Double3, 3>& triangle) const;
   void fill_buckets();
 
   const Terrain& terrain_;

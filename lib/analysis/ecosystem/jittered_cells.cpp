@@ -1,5 +1,6 @@
 #include "lib/analysis/ecosystem/jittered_cells.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -81,11 +82,27 @@ class Placer {
 
 }  // namespace
 
-std::uint64_t cells_a_side(std::uint64_t instances) {
-  auto c = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(instances)));
-  while (c * c < instances) ++c;
-  while (c > 0 && (c - 1) * (c - 1) >= instances) --c;
-  return c;
+CellGrid cells_over(double width, double depth, std::uint64_t instances) {
+  if (instances == 0 || !(width > 0) || !(depth > 0)) return {instances, instances > 0 ? 1u : 0u};
+  // Over the longer side it is fewest rows that have room for most columns.
+  if (width < depth) {
+    const CellGrid turned = cells_over(depth, width, instances);
+    return {turned.rows, turned.columns};
+  }
+  CellGrid best;
+  double side = 0;
+  for (std::uint64_t rows = 1, columns = instances;; ++rows) {
+    columns = (instances + rows - 1) / rows;
+    const double fits = std::min(width / static_cast<double>(columns), depth / static_cast<double>(rows));
+    if (fits > side) best = {columns, rows}, side = fits;
+    if (columns <= rows) break;
+  }
+  if (best.rows == 1) return best;
+  // Those that fit in beside them.
+  const auto whole = [&](double length, std::uint64_t least) {
+    return std::max(least, static_cast<std::uint64_t>(length / side * (1 + 1e-12)));
+  };
+  return {whole(width, best.columns), whole(depth, best.rows)};
 }
 
 CellPlaces place_in_cells(std::span<const std::uint64_t> counts, std::uint64_t cells, const Random& random) {

@@ -108,25 +108,26 @@ class Planter {
     for (std::size_t t = 0; t < types_.size(); ++t) counts[t] = in_cells(t) ? types_[t].count : 0;
     const std::uint64_t total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
     if (total == 0) return;
-    const std::uint64_t side = cells_a_side(total);
-    const CellPlaces places = place_in_cells(counts, side * side, random_.fork(stream_cells));
-    out_.cells = side * side;
+    const CellGrid grid = cells_over(area_.width(), area_.depth(), total);
+    const CellPlaces places = place_in_cells(counts, grid.cells(), random_.fork(stream_cells));
+    out_.cells = grid.cells();
     out_.displaced = places.displaced;
     out_.in_random_cells = places.at_random;
     std::uint64_t first = 0;
     for (std::size_t t = 0; t < types_.size(); ++t) {
-      fill_cells(t, std::span(places.cells).subspan(first, counts[t]), side);
+      fill_cells(t, std::span(places.cells).subspan(first, counts[t]), grid);
       first += counts[t];
     }
   }
 
-  void fill_cells(std::size_t t, std::span<const std::uint64_t> cells, std::uint64_t side) {
+  void fill_cells(std::size_t t, std::span<const std::uint64_t> cells, const CellGrid& grid) {
     random_ones_[t].resize(cells.size());
-    const double w = area_.width() / static_cast<double>(side), d = area_.depth() / static_cast<double>(side);
+    const double w = area_.width() / static_cast<double>(grid.columns),
+                 d = area_.depth() / static_cast<double>(grid.rows);
     std::vector<std::uint8_t> crowded(cells.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 1024), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        const auto column = cells[i] % side, row = cells[i] / side;
+        const auto column = cells[i] % grid.columns, row = cells[i] / grid.columns;
         const Patch cell{area_.x0 + static_cast<double>(column) * w, area_.z0 + static_cast<double>(row) * d,
                          w, d};
         Random random = stream(t, stream_place).fork(i);
