@@ -83,6 +83,8 @@ TEST_F(Ecogen, ErrorsNameThePlaceAndWhatIsAllowed) {
          "terrain.nurbs.weights[0][1]: 0", "above 0"},
         {"/types/0/altitude", R"({"min":1000})", "types[0] (a): there is no place", ""},
         {"/types/0/spacing", "100", "types[0] (a): 200 asked for", "fewer"},
+        {"/types/0", R"({"name":"a","tree":"a.stree","spacing":1,"avoid":["a"]})",
+         "types[0].avoid[0]: 'a' has", "leave it out"},
         {"/mixes", R"([{"count":1,"parts":[{"type":"c","share":"m.png"}]}])",
          "mixes[0].parts[0].type: there is no type called 'c'", ""}}) {
     const Json before = page_;
@@ -117,8 +119,8 @@ TEST_F(Ecogen, EditsSetValues) {
   const Ecosystem eco = load();
   EXPECT_EQ(eco.types[0].instances, 7u);
   EXPECT_EQ(eco.types[1].name, "fern");
-  for (const char* wrong :
-       {"types[9].count=1", "types[0]count", "=1", "types[x].count=1", "no.such=1", "types.[0].count=1"})
+  for (const char* wrong : {R"(types[0]={"tree":"a.stree","count":5,"count":7})", "types[9].count=1",
+                            "types[0]count", "=1", "types[x].count=1", "no.such=1", "types.[0].count=1"})
     EXPECT_EQ(run({"--edit", wrong}).status, 2) << wrong;
   page_["types"][0].erase("scale");
   const Outcome o = run({"--edit", "types[0].scale.max=0.1"});

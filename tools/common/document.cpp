@@ -12,8 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int k_levels = 64;
-
 // Line and column of a byte, both from 1.
 std::string place_of(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, std::min(byte, text.size()));
@@ -43,26 +41,30 @@ std::unexpected<Error> number_too_large(std::string_view text, std::string_view 
 
 }  // namespace
 
-Result<nlohmann::ordered_json> parse_document(std::string_view text, const std::string& file) {
+nlohmann::ordered_json parse_json(std::string_view text, JsonFaults& faults) {
   std::vector<std::set<std::string>> keys;
-  std::string twice;
-  bool deep = false;
   const Json::parser_callback_t watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    if (depth > k_levels) deep = true;
+    if (depth > k_json_levels) faults.deep = true;
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second &&
-        twice.empty())
-      twice = parsed.get<std::string>();
-    return !deep;
+        faults.twice.empty())
+      faults.twice = parsed.get<std::string>();
+    return !faults.deep;
   };
+  return Json::parse(text, watch, true, true);
+}
+
+Result<nlohmann::ordered_json> parse_document(std::string_view text, const std::string& file) {
+  JsonFaults faults;
   try {
-    Json document = Json::parse(text, watch, true, true);
-    if (deep)
-      return refuse(file, fmt::format("is nested more than {} levels deep", k_levels),
+    Json document = parse_json(text, faults);
+    if (faults.deep)
+      return refuse(file, fmt::format("is nested more than {} levels deep", k_json_levels),
                     "nothing that is read needs that");
-    if (!twice.empty())
-      return refuse(file, fmt::format("the key '{}' stands twice in one object", twice), "keep one of them");
+    if (!faults.twice.empty())
+      return refuse(file, fmt::format("the key '{}' stands twice in one object", faults.twice),
+                    "keep one of them");
     return document;
   } catch (const nlohmann::json::parse_error& e) {
     return refuse(file,

@@ -14,4 +14,14 @@ namespace copse {
 // object, more than 64 levels. Comments are passed over.
 Result<nlohmann::ordered_json> parse_document(std::string_view text, const std::string& file);
 
+// What the JSON library lets pass.
+struct JsonFaults {
+  std::string twice;  // the first key that stands twice in one object
+  bool deep = false;  // more than k_json_levels
+};
+inline constexpr int k_json_levels = 64;
+
+// Throws what the library throws (nlohmann::json::exception).
+nlohmann::ordered_json parse_json(std::string_view text, JsonFaults& faults);
+
 }  // namespace copse

@@ -83,8 +83,15 @@ Result<void> edit(Json& document, const std::string& assignment) {
           fmt::format("set it with all that it needs: --edit '{}={{\"{}\": {}, ...}}'", path, *key, value));
     if (!at) return usage("there is nothing of this path in the file");
   }
-  Json parsed = Json::parse(value, nullptr, false);
-  *at = parsed.is_discarded() ? Json(value) : std::move(parsed);
+  JsonFaults faults;
+  try {
+    *at = parse_json(value, faults);
+  } catch (const nlohmann::json::exception&) {
+    *at = value;
+  }
+  if (faults.deep) return usage(fmt::format("its value is nested more than {} levels deep", k_json_levels));
+  if (!faults.twice.empty())
+    return usage(fmt::format("the key '{}' stands twice in one object", faults.twice));
   return {};
 }
 

@@ -287,8 +287,14 @@ class Reader {
     TypeSource& t = s.types[index];
     if (!(t.spacing > 0))
       refuse_at(path, fmt::format("'{}' has no spacing", t.name), "say by spacing how far it keeps off them");
-    for (std::size_t k = 0; k < j["avoid"].size(); ++k)
-      t.avoid.push_back(type_called(j["avoid"][k].get<std::string>(), fmt::format("{}[{}]", path, k), s));
+    for (std::size_t k = 0; k < j["avoid"].size(); ++k) {
+      const std::string place = fmt::format("{}[{}]", path, k);
+      const std::size_t other = type_called(j["avoid"][k].get<std::string>(), place, s);
+      if (s.types[other].spacing > 0)
+        refuse_at(place, fmt::format("'{}' has spacing, and is kept apart by that", s.types[other].name),
+                  "leave it out of avoid");
+      t.avoid.push_back(other);
+    }
   }
 
   MixSource mix(const Json& j, std::size_t index, const Scene& s) const {
