@@ -190,9 +190,7 @@ LodLevel level_of_distance(const LodSpectra& spectra, double distance) {
   if (!(spectra.near > 0)) return spectra.schedule.back();
   const double most = spectra.schedule.front().triangles,
                share = spectra.near / std::min<double>(distance, spectra.far);
-  return level_of_triangles(
-      spectra, static_cast<std::uint64_t>(
-                   std::max(most * share * share, double{0} + spectra.schedule.back().triangles)));
+  return level_of_triangles(spectra, static_cast<std::uint64_t>(most * share * share));
 }
 
 double held_distance(const LodSpectra& spectra, double distance, double held) {

@@ -62,7 +62,7 @@ LodLevel level_of_triangles(const LodSpectra& spectra, std::uint64_t triangles);
 LodLevel level_of_error(const LodSpectra& spectra, double error);
 // Continuous detail by distance: full up to `near`; then the triangles fall with the square of the distance,
 // as the size on screen does (hazard H-11), down to what is left at `far`, which stays (003, section 8.1).
-// Not a number: full detail.
+// With near = 0 that is the coarsest at any distance. Not a number: full detail.
 LodLevel level_of_distance(const LodSpectra& spectra, double distance);
 // The distance to ask level_of_distance for, so that a camera that sways changes nothing: the one that was
 // held before while `distance` is within the hysteresis of it (from (1 - h) to (1 + h) times), otherwise the

@@ -2,8 +2,7 @@
 #include "lib/formats/import/import.h"
 #include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/tampering.h"
-#include "tests/tools/little_obj.h"
-#include "tests/tools/process.h"
+#include "tests/tools/baked_oak.h"
 
 #include <cmath>
 #include <filesystem>
@@ -16,28 +15,7 @@
 namespace copse {
 namespace {
 
-class Lodbake : public testing::Test {
- protected:
-  void SetUp() override {
-    write_text(folder_.path() / "oak.obj", little_tree_obj(8, 12, 60));
-    const Outcome o = run_process({"treeprep", folder_.file("oak.obj"), "-o", tree_, "-q"});
-    ASSERT_EQ(o.status, 0) << o.err;
-  }
-  Outcome bake(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {"lodbake", tree_, "-o", out_});
-    return run_process(arguments);
-  }
-  std::size_t triangles(std::vector<std::string> arguments, const std::string& name = "level.obj") const {
-    arguments.insert(arguments.begin(), {"treedump", out_, "--export", folder_.file(name)});
-    const Outcome o = run_process(arguments);
-    EXPECT_EQ(o.status, 0) << o.err;
-    const auto mesh = import_mesh(folder_.path() / name);
-    return mesh ? mesh->mesh.triangles.size() : 0;
-  }
-
-  TemporaryFolder folder_;
-  std::string tree_ = folder_.file("oak.stree"), out_ = folder_.file("oak.lod.stree");
-};
+using Lodbake = BakedOak;
 
 TEST_F(Lodbake, EveryLevelCanBeTakenFromTheFile) {
   const Outcome o = bake({"--discrete", "0.66,0.33,0.15", "--continuous"});
@@ -307,10 +285,14 @@ TEST_F(Lodbake, WrongOptionsAreUsageErrors) {
                                              {"--near", "500", "--medium", "100"},
                                              {"--near", "100", "--far", "110"},
                                              {"--hysteresis", "100"},
-                                             {"--discrete", "0.9,0.85"},
-                                             {"--hysteresis", "45", "--discrete", "0.8,0.5"},
-                                             {"--near", "1e9", "--discrete", "0.8,0.5"},
-                                             {"--far", "0.5"},
+                                             {"--far", "0"},
+                                             {"--near", "0", "--continuous"},
+                                             {"--near", "0", "--foliage", "prune"},
+                                             {"--near", "10", "--far", "100", "--discrete", "0.5"},
+                                             {"--near", "10", "--far", "14", "--discrete", "0.5,0.3,0.1"},
+                                             {"--hysteresis", "99", "--discrete", "0.9,.8,.7,.6,.5,.4,.3"},
+                                             {"--impostor-views", "4"},
+                                             {"--impostor-layout", "billboard"},
                                              {"--min-triangles", "-1"},
                                              {"--threshold", "-1"},
                                              {"--medium", "50", "--discrete", "0.5"},
@@ -369,6 +351,8 @@ TEST_F(Lodbake, LinesAndPointsAloneBakeNothingElse) {
 TEST_F(Lodbake, AnImpostorIsAMethodToo) {
   ASSERT_EQ(
       bake({"--method", "impostor", "--impostor-views", "1", "--impostor", "16", "--views", "12"}).status, 0);
+  EXPECT_EQ(bake({"--method", "impostor", "--impostor-views", "2", "--views", "12"}).status, 0);
+  EXPECT_NE(run_process({"treedump", out_}).out.find("4 views from everywhere"), std::string::npos);
   EXPECT_EQ(run_process({"treedump", out_, "--export", folder_.file("atlas.png")}).status, 0);
   ASSERT_EQ(bake({"--method", "impostor", "--views", "12"}).status, 0);
   EXPECT_NE(run_process({"treedump", out_}).out.find("128 x 128 pixels"), std::string::npos);

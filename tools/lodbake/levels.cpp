@@ -1,6 +1,7 @@
 #include "tools/lodbake/levels.h"
 
 #include "lib/runtime/levels.h"
+#include "tools/lodbake/level_distances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,33 +28,6 @@ bool same(const LodLevel& a, const LodLevel& b) {
   return a.trunk_steps == b.trunk_steps && a.leaf_steps == b.leaf_steps;
 }
 
-// Whether the tree has the level, or nearly, that was asked for.
-bool as_asked(const Options& options, const LodSpectra& spectra, std::size_t i) {
-  const std::vector<double> shares = asked_shares(options);
-  if (i >= shares.size()) return true;
-  const double asked = shares[i] * spectra.schedule.front().triangles;
-  return spectra.discrete[i].triangles <= asked && spectra.discrete[i].triangles >= 0.9 * asked;
-}
-
-// Bands of hysteresis that would meet.
-Result<void> keep_apart(const Options& options, LodSpectra& spectra) {
-  const double h = options.hysteresis / 100;
-  auto& levels = spectra.discrete;
-  for (std::size_t i = 1; i < levels.size(); ++i) {
-    const double before = levels[i - 1].distance, border = before * (1 + h) / (1 - h);
-    if (levels[i].distance > border || before == 0) continue;
-    if (as_asked(options, spectra, i - 1) && as_asked(options, spectra, i) && !same(levels[i - 1], levels[i]))
-      return fail(
-          Fault::usage, "",
-          fmt::format("levels {} and {} begin at {:.4g} and {:.4g} m: with a hysteresis of {:.3g} % level "
-                      "{} would be drawn nowhere",
-                      i, i + 1, before, levels[i].distance, options.hysteresis, i),
-          "name levels or distances that are farther apart, or a smaller --hysteresis");
-    levels[i].distance = static_cast<float>(border * 1.001);
-  }
-  return {};
-}
-
 double distance_of(double share, double height) {
   return distance_for_pixels(height, k_full_pixels * std::sqrt(std::max(share, 1e-6)));
 }
@@ -71,35 +45,29 @@ std::vector<double> asked_shares(const Options& options) {
   return options.discrete;
 }
 
-Result<void> choose_levels(const Options& options, double height, LodSpectra& spectra) {
-  if (spectra.schedule.empty()) return {};
+void choose_levels(const Options& options, double height, LodSpectra& spectra, Context& context) {
+  if (spectra.schedule.empty()) return;
   const double full = std::max(1.0, static_cast<double>(spectra.schedule.front().triangles));
+  const auto natural = [&](const LodLevel& level) { return distance_of(level.triangles / full, height); };
+  for (LodLevel& knot : spectra.schedule) knot.distance = static_cast<float>(natural(knot));
   spectra.discrete = wanted(options, spectra);
   spectra.hysteresis = static_cast<float>(options.hysteresis / 100);
-  for (LodLevel& level : spectra.discrete)
-    level.distance = static_cast<float>(distance_of(level.triangles / full, height));
-  const double last = spectra.discrete.empty() ? distance_of(spectra.schedule.back().triangles / full, height)
-                                               : spectra.discrete.back().distance;
-  spectra.near = static_cast<float>(options.near.value_or(distance_of(1, height)));
-  if (options.far && *options.far < spectra.near)
-    return fail(Fault::usage, "",
-                fmt::format("--far {:.4g} is nearer than {:.4g} m, up to where there is full detail",
-                            *options.far, spectra.near),
-                "name a greater distance, or a smaller --near");
-  spectra.far = static_cast<float>(std::max<double>(options.far.value_or(last), spectra.near));
-  // The near model of the three that 003 has is full detail: then --medium is where it ends.
-  const bool three_models = spectra.discrete.size() == 2 && options.near && options.medium && options.far;
-  const auto& first = three_models ? options.medium : options.near;
-  if (first && !spectra.discrete.empty()) spectra.discrete.front().distance = static_cast<float>(*first);
-  if (options.medium && spectra.discrete.size() > 1 && !three_models)
-    spectra.discrete[1].distance = static_cast<float>(*options.medium);
-  if (options.far && !spectra.discrete.empty()) spectra.discrete.back().distance = spectra.far;
-  for (LodLevel& knot : spectra.schedule)
-    knot.distance = static_cast<float>(distance_of(knot.triangles / full, height));
-  if (auto apart = keep_apart(options, spectra); !apart) return apart;
-  if (!spectra.discrete.empty() && !options.far)
-    spectra.far = std::max(spectra.far, spectra.discrete.back().distance);
-  return {};
+  std::vector<double> distances;
+  for (const LodLevel& level : spectra.discrete) distances.push_back(natural(level));
+  const NamedDistances named = named_distances(options);
+  const std::vector<double> followed = distances = follow_named(distances, named);
+  keep_apart(distances, named, spectra.hysteresis);
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    spectra.discrete[i].distance = static_cast<float>(distances[i]);
+  for (std::size_t i = 1; i < distances.size(); ++i)
+    if (distances[i] > 1.01 * followed[i] && !same(spectra.discrete[i - 1], spectra.discrete[i]))
+      context.warn(
+          fmt::format("{}: level {} begins at {:.4g} m instead of {:.4g}, so that with a hysteresis "
+                      "of {:.3g} % level {} is drawn somewhere",
+                      options.input.string(), i + 1, distances[i], followed[i], options.hysteresis, i));
+  const double near = std::min(distance_of(1, height), distances.front());
+  spectra.near = static_cast<float>(options.near.value_or(near));
+  spectra.far = std::max(spectra.near, spectra.discrete.back().distance);
 }
 
 }  // namespace copse::lodbake

@@ -1,6 +1,7 @@
 #include "tools/lodbake/options.h"
 
 #include "tools/common/option_values.h"
+#include "tools/lodbake/level_distances.h"
 #include "tools/lodbake/run.h"
 
 #include <algorithm>
@@ -41,6 +42,11 @@ void take_methods(const std::vector<std::string>& names, Options& options) {
     if (name == "lines-points") options.lines_points = true;
     if (name == "impostor" && options.impostor == 0) options.impostor = k_impostor_pixels;
   }
+}
+
+// Notes that an option was named.
+auto given(bool& flag) {
+  return [&flag](const std::string&) { flag = true; };
 }
 
 }  // namespace
@@ -84,10 +90,10 @@ void add_options(CLI::App& app, Options& options) {
       ->check(number_from(0));
   levels->add_option("--medium", options.medium, "the second level begins here")
       ->type_name("D")
-      ->check(number_from(0));
+      ->check(number_above(0));
   levels->add_option("--far", options.far, "the last level begins here")
       ->type_name("D")
-      ->check(number_from(0));
+      ->check(number_above(0));
   levels
       ->add_option("--hysteresis", options.hysteresis,
                    "switching back happens this share of the distance later, percent")
@@ -115,7 +121,7 @@ void add_options(CLI::App& app, Options& options) {
                           "by radii (rings, sides, ribbons) or by edge collapses",
                           {{"radii", TrunkMethod::radii}, {"edges", TrunkMethod::edges}})
       ->type_name("radii|edges")
-      ->each([&options](const std::string&) { options.trunk_given = true; });
+      ->each(given(options.trunk_given));
   add_choice<RemovalOrder>(
       *methods, "--removal", options.removal,
       "of --trunk radii: which rings go first, by what the silhouette loses, by the angle "
@@ -130,7 +136,7 @@ void add_options(CLI::App& app, Options& options) {
       "leaves become one bigger, two at a time, or vanish in stratified random order, cell by cell",
       {{"collapse", FoliageMethod::collapse}, {"prune", FoliageMethod::prune}})
       ->type_name("collapse|prune")
-      ->each([&options](const std::string&) { options.foliage_given = true; });
+      ->each(given(options.foliage_given));
   add_choice<CollapseQuality>(
       *methods, "--quality", options.quality,
       "of --foliage collapse; fast: closed forms; balanced: pictures decide, seen at some points; exact: all "
@@ -139,35 +145,34 @@ void add_options(CLI::App& app, Options& options) {
        {"balanced", CollapseQuality::balanced},
        {"exact", CollapseQuality::exact}})
       ->type_name("fast|balanced|exact")
-      ->each([&options](const std::string&) { options.quality_given = true; });
+      ->each(given(options.quality_given));
   methods
       ->add_option(
           "--cells", options.cells,
           "of --foliage prune: at most so many cells, each with its visibility from --views directions")
       ->check(whole_number_from(1, 1 << 20))
-      ->each([&options](const std::string&) { options.cells_given = true; })
+      ->each(given(options.cells_given))
       ->type_name("N")
       ->capture_default_str();
-  CLI::Option* impostor =
-      methods
-          ->add_option("--impostor", options.impostor,
-                       "behind the last level the tree as pictures, so many pixels a side each")
-          ->check(whole_number_from(8, 1024))
-          ->type_name("SIZE")
-          ->default_str("");
+  methods
+      ->add_option("--impostor", options.impostor,
+                   "behind the last level the tree as pictures, so many pixels a side each")
+      ->check(whole_number_from(8, 1024))
+      ->type_name("SIZE")
+      ->default_str("");
   methods
       ->add_option("--impostor-views", options.impostor_views,
                    "views along a side of the atlas, or round the trunk of a billboard")
       ->check(whole_number_from(1, k_max_impostor_views))
       ->type_name("N")
-      ->needs(impostor)
+      ->each(given(options.impostor_views_given))
       ->capture_default_str();
   add_choice<ImpostorLayout>(
       *methods, "--impostor-layout", options.impostor_layout,
       "views from everywhere (octahedral), or level ones round the trunk (billboard)",
       {{"octahedral", ImpostorLayout::octahedral}, {"billboard", ImpostorLayout::billboard}})
       ->type_name("octahedral|billboard")
-      ->needs(impostor);
+      ->each(given(options.impostor_layout_given));
   methods->add_flag("--lines-points", options.lines_points,
                     "refuse a tree that lacks what lines and points are drawn from (segments by diameter, "
                     "accumulated lengths, leaf centres, groups in order)");
@@ -244,29 +249,10 @@ Result<void> check(const Options& options) {
     return usage("--discrete: the shares do not fall", "name them in descending order, each once");
   if (!std::is_sorted(options.discrete_error.begin(), options.discrete_error.end(), std::less_equal<>()))
     return usage("--discrete-error: the errors do not grow", "name them in ascending order, each once");
-  if (options.medium && (options.discrete.size() == 1 || options.discrete_error.size() == 1))
-    return usage("--medium: there is one level alone, and it begins at --near",
-                 "drop it, or name two levels or more");
-  const double h = options.hysteresis / 100;
-  // Distances go with the root of the share.
-  for (std::size_t i = 1; i < options.discrete.size() && !options.near && !options.medium && !options.far;
-       ++i)
-    if (std::sqrt(options.discrete[i - 1]) * (1 - h) <= std::sqrt(options.discrete[i]) * (1 + h))
-      return usage(
-          fmt::format("--discrete: {} and {} are so close that with a hysteresis of {} % the finer one "
-                      "would be drawn nowhere",
-                      options.discrete[i - 1], options.discrete[i], options.hysteresis),
-          "name shares that are farther apart, or a smaller --hysteresis");
-  const std::optional<double> borders[] = {options.near, options.medium, options.far};
-  double before = -1;
-  for (const auto& border : borders) {
-    if (!border) continue;
-    // Two bands that overlap would leave no place where the level between them is drawn (digest 003, H-10).
-    if (before >= 0 && before * (1 + h) >= *border * (1 - h))
-      return usage("--near, --medium and --far are too close to one another, or out of order",
-                   "let each be farther than the one before by more than both bands of --hysteresis");
-    before = *border;
-  }
+  if (auto right = check_distances(options); !right) return right;
+  if ((options.impostor_views_given || options.impostor_layout_given) && options.impostor == 0)
+    return usage("--impostor-views and --impostor-layout are of an impostor, and none is asked for",
+                 "add --impostor SIZE or --method impostor");
   if (static_cast<std::uint32_t>(options.impostor * options.impostor_views) > k_max_impostor_side)
     return usage("--impostor: the atlas is too large",
                  fmt::format("let SIZE times --impostor-views be at most {}", k_max_impostor_side));

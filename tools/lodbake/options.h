@@ -31,6 +31,7 @@ struct Options {
   double hysteresis = 10;            // percent
   std::vector<std::string> methods;  // names of --method
   bool trunk_given = false, foliage_given = false, quality_given = false, cells_given = false;
+  bool impostor_views_given = false, impostor_layout_given = false;
   TrunkMethod trunk = TrunkMethod::radii;
   RemovalOrder removal = RemovalOrder::silhouette;
   FoliageMethod foliage = FoliageMethod::collapse;

@@ -222,12 +222,11 @@ Result<void> run(const Options& options, Context& context) {
   LodSpectra* spectra = &baked->spectra;
   {
     Stage stage = context.stage("levels");
-    if (auto chosen = choose_levels(options, tree->header.bounds.extent().y, *spectra); !chosen)
-      return chosen;
+    choose_levels(options, tree->header.bounds.extent().y, *spectra, context);
     report_levels(options, *tree, *spectra, context);
-    // Where only the near border was asked for, the far one is that of the levels.
-    if (baked->cells && options.near && !options.far)
-      baked->cells->parameters.far = std::max(spectra->far, baked->cells->parameters.near);
+    // Where only one border was asked for, the other one is that of the levels.
+    if (baked->cells && (options.near || options.far))
+      baked->cells->parameters.near = spectra->near, baked->cells->parameters.far = spectra->far;
     stage.items(spectra->discrete.size(), "levels");
   }
   if (options.lines_points) report_projections(*tree, options.views, context);
