@@ -205,11 +205,25 @@ TEST_F(Tool, EveryFaultHasItsStatusAndOneLine) {
 }
 
 TEST_F(Tool, WhatFailsLeavesNothing) {
-  for (const char* fault : {"refused", "memory", "limit", "throw", "int"}) {
+  for (const char* fault : {"refused", "memory", "throw", "int"}) {
     probe({"-o", file("out"), "--report", file("r.json"), "--html", file("r.html"), "--depfile", file("d"),
            "--fault", fault});
     EXPECT_EQ(files(), 0u) << fault;
   }
+}
+
+TEST_F(Tool, ALimitThatIsNotMetLeavesReportAndPageWhichSayWhy) {
+  const Outcome o = probe({"-q", "-o", file("out"), "--report", file("r.json"), "--html", file("r.html"),
+                           "--depfile", file("d"), "--fault", "limit"});
+  EXPECT_EQ(o.status, 4);
+  EXPECT_EQ(line_count(o.err), 1u);
+  EXPECT_EQ(files(), 2u);
+  const json r = json::parse(read_text(file("r.json")));
+  EXPECT_TRUE(r["outputs"].empty());
+  EXPECT_NE(r["warnings"].back().get<std::string>().find("error 0.2 exceeds 0.1"), std::string::npos);
+  EXPECT_NE(read_text(file("r.html")).find("nothing was written"), std::string::npos);
+  EXPECT_EQ(json::parse(probe({"-q", "-o", file("out"), "--report", "-", "--fault", "limit"}).out)["tool"],
+            "common_probe");
 }
 
 TEST_F(Tool, WhatFailsLeavesTheOldFileAsItWas) {

@@ -4,10 +4,8 @@
 #include "tests/formats/tampering.h"
 #include "tests/tools/baked_oak.h"
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -210,29 +208,6 @@ TEST_F(Lodbake, SmallIsSmallerAndSaysHowWrongItIs) {
   EXPECT_GT(triangles({"--level", "1"}), 0u);
 }
 
-TEST_F(Lodbake, TheReportHasAreaCoverageAndImageErrorOfEveryLevel) {
-  ASSERT_EQ(bake({"--discrete", "0.5,0.2", "--measure", "--views", "12", "--report", folder_.file("r.json"),
-                  "--html", folder_.file("r.html")})
-                .status,
-            0);
-  const auto report = nlohmann::json::parse(read_text(folder_.path() / "r.json"));
-  bool found = false;
-  for (const auto& table : report["tables"]) {
-    if (table["name"] != "quality") continue;
-    found = true;
-    ASSERT_EQ(table["rows"].size(), 3u);
-    EXPECT_EQ(table["rows"][0][3], "1.000");
-    EXPECT_EQ(table["rows"][0][6], "0.0000");
-    EXPECT_EQ(table["rows"][1][9], "512") << "the share that was asked for is .5";
-    EXPECT_EQ(table["columns"][12], "Lost branch length");
-    EXPECT_EQ(table["rows"][0][12], "0.000");
-    EXPECT_EQ(table["columns"][13], "Bytes");
-    EXPECT_GT(std::stoul(table["rows"][1][13].get<std::string>()), 0u);
-  }
-  EXPECT_TRUE(found);
-  EXPECT_NE(read_text(folder_.path() / "r.html").find("data:image/png;base64"), std::string::npos);
-}
-
 TEST_F(Lodbake, AGlbCarriesEveryLevelAndShowsTheFirst) {
   ASSERT_EQ(bake({"--discrete", "0.5,0.2"}).status, 0);
   EXPECT_EQ(triangles({}, "all.glb"), 8u * 2 * 11 + 60);  // what the scene shows is full detail
@@ -268,13 +243,6 @@ TEST_F(Lodbake, AGlbEndsInTheImpostorAsTwoPictures) {
   EXPECT_TRUE(material["doubleSided"].get<bool>());
   const auto& base = material["pbrMetallicRoughness"];
   EXPECT_TRUE(base.contains("baseColorTexture"));
-}
-
-TEST_F(Lodbake, ALevelThatErrsTooMuchIsNotWritten) {
-  const Outcome o = bake({"--discrete", "0.02", "--max-error", "0.0001"});
-  EXPECT_EQ(o.status, 4);
-  EXPECT_EQ(line_count(o.err), 1u);
-  EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
 TEST_F(Lodbake, WrongOptionsAreUsageErrors) {
@@ -433,60 +401,6 @@ TEST_F(Lodbake, ASmallFileDoesAllThatAFastOneDoes) {
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(again.err, "");
   EXPECT_TRUE(TreeFile::open(out_)->container().find("VSET") != nullptr);
-}
-
-// Leaves that a simplifier halves without any harm: flat squares of 4 x 4 quads, `count` of them round the
-// top.
-std::string flat_leaves(int count, double height) {
-  std::string obj = "o leaves\nusemtl leaf\n";
-  for (int l = 0; l < count; ++l) {
-    const double a = 2.4 * l, x = 2 * std::cos(a), z = 2 * std::sin(a), y = height - 0.15 * l;
-    for (int i = 0; i < 25; ++i)
-      obj += "v " + std::to_string(x + 0.2 * (i % 5)) + " " + std::to_string(y + 0.2 * (i / 5)) + " " +
-             std::to_string(z) + "\n";
-    for (int i = 0; i < 16; ++i) {
-      const int corner = i / 4 * 5 + i % 4 - 25;
-      const auto v = [&](int more) { return std::to_string(corner + more) + "/" + std::to_string(1) + " "; };
-      obj += "f " + v(0) + v(1) + v(6) + "\nf " + v(0) + v(6) + v(5) + "\n";
-    }
-  }
-  return obj;
-}
-
-TEST_F(Lodbake, ASweepComparesAllMethodsAtTheSameCountsAndPeersKeepTheirMaterials) {
-  write_text(folder_.path() / "none.mtl", "newmtl bark\nKd 0 0 0\nnewmtl leaf\nKd 0 0.9 0\n");
-  write_text(folder_.path() / "flat.obj", little_tree_obj(8, 6, 0, flat_leaves(20, 5)));
-  ASSERT_EQ(run_process({"treeprep", folder_.file("flat.obj"), "-o", tree_, "-q"}).status, 0);
-  const std::string report = folder_.file("r.json");
-  const Outcome o = bake({"--sweep", "--views", "12", "--divide", "even", "--report", report});
-  ASSERT_EQ(o.status, 0) << o.err;
-  const auto json = nlohmann::json::parse(read_text(report));
-  const double full = 8 * 2 * 5 + 20 * 32;
-  std::map<std::string, int> ours;
-  for (const auto& table : json["tables"]) {
-    if (table["name"] != "sweep" && table["name"] != "last geometric level") continue;
-    const auto column = [&](const char* name) {
-      return std::find(table["columns"].begin(), table["columns"].end(), name) - table["columns"].begin();
-    };
-    for (const auto& row : table["rows"]) {
-      const std::string method = row[column("Method")];
-      const auto number = [&](const char* name) { return std::stod(row[column(name)].get<std::string>()); };
-      const double target = table["name"] == "sweep" ? std::floor(number("Share") * full) : 200;
-      if (method == "copse") {
-        ++ours[table["name"]];
-        EXPECT_LE(number("Triangles"), target);
-        EXPECT_NEAR(number("Leaf area"), 1, 0.06);
-      }
-      if (method.starts_with("meshoptimizer") && number("Share") == 0.5) {
-        EXPECT_LE(number("Triangles"), target);
-        EXPECT_GT(number("Leaf area"), 0.9);
-        // Painted with another material, whatever is left of leaves or trunk would be wrong all over.
-        EXPECT_LT(number("RMSE"), 0.03) << method;
-      }
-    }
-  }
-  EXPECT_EQ(ours["sweep"], 5);
-  EXPECT_EQ(ours["last geometric level"], 1);
 }
 
 TEST_F(Lodbake, WarnsThatVolumesAreOfTheTreeBeforeItWasPacked) {

@@ -204,8 +204,7 @@ Result<void> ToolContext::add_depfile() {
   return outputs_.add(options_.depfile, Pieces::borrowed(*text));
 }
 
-Result<void> ToolContext::finish() {
-  if (!printed_) return printed_;
+Result<void> ToolContext::add_reports() {
   report_.outputs = outputs_.records();
   report_.seconds = seconds_since(start_);
   report_.peak_bytes = peak_bytes();
@@ -215,8 +214,21 @@ Result<void> ToolContext::finish() {
   Result<void> done;
   if (!options_.report.empty()) done = outputs_.add(options_.report, Pieces::borrowed(to_json(report_)));
   if (done && !options_.html.empty()) done = outputs_.add(options_.html, Pieces::borrowed(to_html(report_)));
+  return done;
+}
+
+Result<void> ToolContext::finish() {
+  if (!printed_) return printed_;
+  auto done = add_reports();
   if (done && !options_.depfile.empty()) done = add_depfile();
   if (!done) return done;
+  return outputs_.commit();
+}
+
+Result<void> ToolContext::finish_refused(const Error& error) {
+  outputs_.discard();
+  report_.warnings.push_back("nothing was written: " + to_line(error, report_.tool));
+  if (auto done = add_reports(); !done) return done;
   return outputs_.commit();
 }
 

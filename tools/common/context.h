@@ -32,6 +32,8 @@ class ToolContext : public Context {
   Result<void> check_own_outputs() const;
   // Report, page and dependency file as asked for, then everything becomes visible.
   Result<void> finish();
+  // A limit that the user set is not met: no output is written, but report and page, which say why.
+  Result<void> finish_refused(const Error& error);
 
  private:
   bool reports() const { return !options_.report.empty() || !options_.html.empty(); }
@@ -39,6 +41,7 @@ class ToolContext : public Context {
   Result<void> check_name(const std::filesystem::path& path) const;
   Result<void> check_depfile_name(const std::filesystem::path& output) const;
   Result<void> add_depfile();
+  Result<void> add_reports();
 
   CommonOptions options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -81,7 +81,7 @@ Result<void> Outputs::commit() {
 void Outputs::discard() {
   const std::lock_guard lock(mutex_);
   group_ = {};
-  stdout_.clear();
+  stdout_.clear(), records_.clear();
 }
 
 }  // namespace copse

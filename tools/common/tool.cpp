@@ -66,8 +66,12 @@ Result<void> run_in_context(const ToolInfo& info, CommandLine&& line, const Run&
   context.report().options = std::move(line.options);
   for (const std::filesystem::path& file : line.files) context.read(file, false);
   if (auto writable = context.check_own_outputs(); !writable) return writable;
-  if (auto done = run(context); !done) return done;
-  return context.finish();
+  const Result<void> done = run(context);
+  if (done) return context.finish();
+  if (done.error().fault == Fault::limit) {
+    if (auto told = context.finish_refused(done.error()); !told) return told;
+  }
+  return done;
 }
 
 Result<void> run_command(const ToolInfo& info, const std::vector<std::string>& arguments,

@@ -85,7 +85,7 @@ class Context {
   // Whether this output could be written, as far as that can be known beforehand: call it before long work.
   virtual Result<void> check_output(const std::filesystem::path& path) = 0;
   // Writes an output: beside it, synced, renamed; all outputs of a run become visible only when run() has
-  // succeeded. "-" is stdout.
+  // succeeded. "-" is stdout. After a Fault::limit only report and page do, which name it as a warning.
   virtual Result<void> write(const std::filesystem::path& path, const Pieces& bytes) = 0;
   Result<void> write(const std::filesystem::path& path, std::string_view bytes);
 };

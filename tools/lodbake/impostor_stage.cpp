@@ -1,6 +1,5 @@
 #include "tools/lodbake/impostor_stage.h"
 
-#include "lib/analysis/lod/impostor.h"
 #include "lib/analysis/measure/picture_error.h"
 #include "lib/analysis/measure/view_sphere.h"
 #include "lib/formats/import/image.h"
@@ -29,13 +28,8 @@ std::vector<std::uint8_t> normals_and_depth(const Impostor& impostor) {
   return out;
 }
 
-struct Fidelity {
-  double coverage = 0, iou = 0, rmse = 0, ssim = 0;
-};
-
-// From all around, also between the pictures that were taken, as large as one of them.
-Fidelity measure(const Impostor& impostor, const DrawnMesh& source, const Looks& looks, int views) {
-  Fidelity out;
+ImpostorFidelity measure(const Impostor& impostor, const DrawnMesh& source, const Looks& looks, int views) {
+  ImpostorFidelity out;
   double shown = 0, there = 0;
   const ViewSphere sphere = view_sphere(subdivisions_for(views));
   for (const Double3& toward : sphere.directions) {
@@ -58,7 +52,7 @@ Fidelity measure(const Impostor& impostor, const DrawnMesh& source, const Looks&
   return out;
 }
 
-void tell(const Impostor& impostor, const ImpostorAtlas& atlas, const Fidelity& f, Report& report) {
+void tell(const Impostor& impostor, const ImpostorAtlas& atlas, const ImpostorFidelity& f, Report& report) {
   report.tables.push_back(
       {.name = "impostor",
        .columns = {"Views", "Pixels", "Bytes", "From (m)", "Coverage", "Silhouette IoU", "RMSE", "SSIM"},
@@ -79,11 +73,11 @@ double distance_of(const LodSpectra& spectra, const Impostor& impostor) {
 
 }  // namespace
 
-Result<ImpostorAtlas> bake_impostor(const LodSpectra& spectra, const TreeLooks& looks, const Options& options,
+Result<BakedImpostor> bake_impostor(const LodSpectra& spectra, const TreeLooks& looks, const Options& options,
                                     Context& context) {
   Stage stage = context.stage("impostor");
   const DrawnMesh source = drawn_level(spectra, {});
-  const Impostor impostor = make_impostor(
+  Impostor impostor = make_impostor(
       source, looks.looks().materials, looks.images(),
       {.layout = options.impostor_layout, .views = options.impostor_views, .size = options.impostor});
   stage.items(impostor.views.size(), "views");
@@ -98,8 +92,9 @@ Result<ImpostorAtlas> bake_impostor(const LodSpectra& spectra, const TreeLooks& 
                       .distance = static_cast<float>(distance_of(spectra, impostor)),
                       .albedo = std::move(*albedo),
                       .normal = std::move(*normal)};
-  tell(impostor, atlas, measure(impostor, source, looks.looks(), options.views), context.report());
-  return atlas;
+  const ImpostorFidelity fidelity = measure(impostor, source, looks.looks(), options.views);
+  tell(impostor, atlas, fidelity, context.report());
+  return BakedImpostor{std::move(atlas), std::move(impostor), fidelity};
 }
 
 }  // namespace copse::lodbake

@@ -3,14 +3,11 @@
 #include "lib/analysis/measure/picture_error.h"
 #include "lib/analysis/measure/raster.h"
 #include "lib/analysis/measure/view_sphere.h"
-#include "lib/formats/import/image.h"
-#include "tools/picture/base64.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 namespace copse::lodbake {
@@ -25,22 +22,6 @@ std::vector<Double3> six_sides() {
     if (!opposite) sides.push_back(d);
   }
   return sides;
-}
-
-std::uint8_t to_srgb(float linear) {
-  const double c = std::clamp(static_cast<double>(linear), 0.0, 1.0);
-  return static_cast<std::uint8_t>(
-      std::lround(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
-}
-
-Result<std::string> png_of(const Picture& picture) {
-  Image image{.width = picture.width, .height = picture.height, .rgba = {}, .has_alpha = false};
-  for (const Float3& c : picture.colour) {
-    image.rgba.insert(image.rgba.end(), {to_srgb(c.x), to_srgb(c.y), to_srgb(c.z), 255});
-  }
-  const auto bytes = encode_png(image);
-  if (!bytes) return std::unexpected(bytes.error());
-  return base64(*bytes);
 }
 
 }  // namespace
@@ -84,32 +65,6 @@ double LevelPictures::error(const TriedLevel& level) const {
   });
   const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
   return sides.empty() ? 0 : std::sqrt(sum / static_cast<double>(sides.size()));
-}
-
-Result<ReportPicture> level_strip(const LodSpectra& spectra, const Looks& looks,
-                                  const std::vector<LodLevel>& levels,
-                                  const std::vector<std::string>& labels) {
-  constexpr int k_size = 240, k_gap = 8, k_text = 40, k_row = 4;
-  const DoubleBox box = bounds(drawn_level(spectra, {}));
-  const auto count = static_cast<int>(levels.size());
-  const int columns = std::min(count, k_row), rows = (count + k_row - 1) / k_row;
-  std::string svg =
-      fmt::format("<svg viewBox=\"0 0 {} {}\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\">",
-                  columns * (k_size + k_gap), rows * (k_size + k_text));
-  for (int i = 0; i < count; ++i) {
-    const OrthographicView view = frame_box(box, 0.4, k_size, k_size);
-    const auto png =
-        png_of(draw_picture(drawn_level(spectra, levels[static_cast<std::size_t>(i)]), looks, view, 2));
-    if (!png) return std::unexpected(png.error());
-    const int x = i % k_row * (k_size + k_gap), y = i / k_row * (k_size + k_text);
-    svg +=
-        fmt::format("<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" href=\"data:image/png;base64,{}\"/>",
-                    x, y, k_size, k_size, *png);
-    svg += fmt::format(
-        "<text x=\"{}\" y=\"{}\" font-size=\"13\" text-anchor=\"middle\" fill=\"currentColor\">{}</text>",
-        x + k_size / 2, y + k_size + 18, labels[static_cast<std::size_t>(i)]);
-  }
-  return ReportPicture{"Levels", "Full detail first; every level drawn from the same side.", svg + "</svg>"};
 }
 
 }  // namespace copse::lodbake

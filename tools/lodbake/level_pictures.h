@@ -1,15 +1,12 @@
-// Levels as pictures: for dividing triangles by what is seen, and for the page.
+// Levels as pictures: for dividing triangles by what is seen.
 #pragma once
 
 #include "lib/analysis/lod/coupling.h"
 #include "lib/analysis/measure/drawn_mesh.h"
 #include "lib/analysis/measure/picture.h"
 #include "lib/formats/levels/spectrum.h"
-#include "lib/formats/report.h"
-#include "lib/formats/result.h"
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace copse::lodbake {
@@ -35,10 +32,5 @@ class LevelPictures {
   Double3 centre_;
   std::array<std::vector<Picture>, k_sizes.size()> source_;
 };
-
-// The levels side by side, full detail first, each with its label under it.
-Result<ReportPicture> level_strip(const LodSpectra& spectra, const Looks& looks,
-                                  const std::vector<LodLevel>& levels,
-                                  const std::vector<std::string>& labels);
 
 }  // namespace copse::lodbake

@@ -1,8 +1,6 @@
 #include "tools/lodbake/measure_stage.h"
 
 #include "lib/analysis/lod/discrete_spectra.h"
-#include "lib/analysis/measure/lod_quality.h"
-#include "lib/analysis/measure/surface_distance.h"
 #include "lib/formats/levels/spectrum_file.h"
 #include "lib/runtime/levels.h"
 #include "tools/lodbake/level_pictures.h"
@@ -13,28 +11,28 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace copse::lodbake {
-namespace {
 
-// Pixels across the tree at which a level with this share of the triangles is shown.
 int shown_size(double share) {
   return share >= 0.25 ? 512 : share >= 0.05 ? 128 : 32;
 }
+
+namespace {
 
 // One judge a size, made when it is first asked for.
 class Judges {
  public:
   Judges(const DrawnMesh& source, const Looks& looks, int views)
       : source_(source), looks_(looks), views_(views) {}
-  LodQuality measure(const DrawnMesh& level, double share) {
-    auto& judge = judges_[shown_size(share)];
+  LodQuality measure(const DrawnMesh& level, int pixels) {
+    auto& judge = judges_[pixels];
     if (!judge)
       judge = std::make_unique<LodJudge>(
-          source_, looks_,
-          LodQualityOptions{.views = views_, .image_size = shown_size(share), .mask_size = 256});
+          source_, looks_, LodQualityOptions{.views = views_, .image_size = pixels, .mask_size = 256});
     return judge->measure(level);
   }
 
@@ -49,24 +47,53 @@ std::string short_number(double value) {
   return fmt::format("{:.3f}", value);
 }
 
-std::vector<std::string> quality_row(std::string name, const LodQuality& q, double share, double asked) {
-  return {std::move(name),
+// What is as far away as rounding says lies on the surface.
+std::string metres(double value, double size) {
+  return value <= 1e-12 * size ? "0" : fmt::format("{:.4g}", value);
+}
+
+std::vector<std::string> quality_row(std::size_t level, const LevelFigures& f) {
+  const LodQuality& q = f.quality;
+  return {fmt::format("{}", level),
           fmt::format("{}", q.triangles),
-          short_number(share),
+          short_number(f.share),
           short_number(q.area_ratio),
+          f.leaf_area ? short_number(*f.leaf_area) : "-",
           short_number(q.coverage_ratio),
+          short_number(q.coverage_low),
+          short_number(q.coverage_high),
           short_number(q.iou),
+          short_number(q.iou_low),
           fmt::format("{:.4f}", q.rmse),
           short_number(q.ssim),
           short_number(q.hull_growth),
-          fmt::format("{}", shown_size(asked))};
+          fmt::format("{}", f.pixels)};
 }
 
-const std::vector<std::string>& quality_columns() {
-  static const std::vector<std::string> k_columns{"Level",       "Triangles",      "Share", "Area",
-                                                  "Coverage",    "Silhouette IoU", "RMSE",  "SSIM",
-                                                  "Hull growth", "Pixels"};
-  return k_columns;
+// Numbers of different pictures are no curve of one thing.
+void add_image_errors(const std::vector<LevelFigures>& figures, Report& report) {
+  for (const int pixels : {512, 128, 32}) {
+    Curve curve{.name = fmt::format("{} pixels", pixels), .x = "triangles", .y = "RMSE", .points = {}};
+    for (std::size_t i = 0; i < figures.size(); ++i)
+      if (figures[i].pixels == pixels)
+        curve.points.push_back({fmt::format("{}", i), static_cast<double>(figures[i].quality.triangles),
+                                figures[i].quality.rmse});
+    if (!curve.points.empty()) report.curves.push_back(std::move(curve));
+  }
+}
+
+void add_coverage(const std::vector<LevelFigures>& figures, Report& report) {
+  const std::pair<const char*, double LodQuality::*> k_views[] = {{"all views", &LodQuality::coverage_ratio},
+                                                                  {"least view", &LodQuality::coverage_low},
+                                                                  {"most view", &LodQuality::coverage_high}};
+  for (const auto& [name, member] : k_views) {
+    Curve curve{.name = name, .x = "triangles", .y = "coverage", .points = {}};
+    for (std::size_t i = 0; i < figures.size(); ++i)
+      curve.points.push_back({.label = {},
+                              .x = static_cast<double>(figures[i].quality.triangles),
+                              .y = figures[i].quality.*member});
+    report.curves.push_back(std::move(curve));
+  }
 }
 
 // Of the segments whose tubes are gone, in all segments' length; nothing without a hierarchy.
@@ -120,42 +147,82 @@ double extraction_time(const LevelExtractor& trunk, const LevelExtractor& leaves
   return times[10];
 }
 
+LevelFigures figures_of(const LodSpectra& spectra, const LodLevel& level, std::optional<double> asked,
+                        Judges& judges) {
+  const DrawnMesh drawn = drawn_level(spectra, level);
+  LevelFigures f;
+  f.share = static_cast<double>(drawn.triangles.size()) /
+            std::max<double>(1, static_cast<double>(full_detail(spectra).triangles));
+  f.pixels = shown_size(asked.value_or(f.share));
+  f.quality = judges.measure(drawn, f.pixels);
+  const double leaves = area(drawn_state(spectra.leaves, 0));
+  if (leaves > 0) f.leaf_area = area(drawn_state(spectra.leaves, level.leaf_steps)) / leaves;
+  return f;
+}
+
+void add_cost(const Tree& tree, const LodSpectra& spectra, const std::vector<LodLevel>& levels,
+              const Options& options, Report& report) {
+  const LevelExtractor trunk(spectra.trunk), leaves(spectra.leaves);
+  std::vector<std::uint32_t> buffer(std::max(trunk.capacity(), leaves.capacity()));
+  Table table{.name = "cost", .columns = {"Level", "Bytes", "Extraction (us)"}, .rows = {}};
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    table.rows.push_back({fmt::format("{}", i), stored_bytes(tree, spectra, levels[i], options.coding),
+                          fmt::format("{:.1f}", extraction_time(trunk, leaves, levels[i], buffer))});
+  report.tables.push_back(std::move(table));
+}
+
 }  // namespace
 
-void measure_levels(const Tree& tree, const LodSpectra& spectra, const Looks& looks,
-                    const std::vector<LodLevel>& levels, const Options& options, Context& context) {
+std::vector<LevelFigures> measure_levels(const Tree& tree, const LodSpectra& spectra, const Looks& looks,
+                                         const std::vector<LodLevel>& levels, const Options& options,
+                                         Context& context) {
   Stage stage = context.stage("measure");
   stage.items(levels.size(), "levels");
   const DrawnMesh source = drawn_level(spectra, {});
   Judges judges(source, looks, options.views);
-  const LevelExtractor trunk(spectra.trunk), leaves(spectra.leaves);
-  std::vector<std::uint32_t> buffer(std::max(trunk.capacity(), leaves.capacity()));
-  Table table{.name = "quality", .columns = quality_columns(), .rows = {}};
-  table.columns.insert(table.columns.end(), {"Level to source (m)", "Source to level (m)",
-                                             "Lost branch length", "Bytes", "Extraction (us)"});
   const std::vector<double> asked = asked_shares(options);
-  Curve rmse{.name = "image error", .x = "triangles", .y = "RMSE", .points = {}},
-      coverage{.name = "coverage", .x = "triangles", .y = "of full detail", .points = {}};
+  std::vector<LevelFigures> figures;
+  Table table{
+      .name = "quality",
+      .columns = {"Level", "Triangles", "Share", "Area", "Leaf area", "Coverage", "Coverage, least",
+                  "Coverage, most", "Silhouette IoU", "IoU, least", "RMSE", "SSIM", "Hull growth", "Pixels"},
+      .rows = {}};
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const DrawnMesh drawn = drawn_level(spectra, levels[i]);
-    const double share = static_cast<double>(drawn.triangles.size()) /
-                         std::max<double>(1, static_cast<double>(source.triangles.size()));
-    const double nominal = i > 0 && i <= asked.size() ? asked[i - 1] : share;
-    const LodQuality q = judges.measure(drawn, nominal);
-    const SurfaceDistances d = surface_distance(source, drawn);
-    table.rows.push_back(quality_row(fmt::format("{}", i), q, share, nominal));
-    table.rows.back().push_back(fmt::format("{:.4g}", d.from_level.mean));
-    table.rows.back().push_back(fmt::format("{:.4g}", d.from_source.mean));
-    table.rows.back().push_back(lost_length(tree, spectra.trunk, levels[i].trunk_steps));
-    table.rows.back().push_back(stored_bytes(tree, spectra, levels[i], options.coding));
-    table.rows.back().push_back(fmt::format("{:.1f}", extraction_time(trunk, leaves, levels[i], buffer)));
-    rmse.points.push_back({fmt::format("{}", i), static_cast<double>(q.triangles), q.rmse});
-    coverage.points.push_back({fmt::format("{}", i), static_cast<double>(q.triangles), q.coverage_ratio});
+    const bool by_share = i > 0 && i <= asked.size();
+    figures.push_back(
+        figures_of(spectra, levels[i], by_share ? std::optional(asked[i - 1]) : std::nullopt, judges));
+    table.rows.push_back(quality_row(i, figures.back()));
     stage.progress(static_cast<double>(i + 1) / static_cast<double>(levels.size()));
   }
   Report& report = context.report();
   report.tables.push_back(std::move(table));
-  report.curves.push_back(std::move(rmse)), report.curves.push_back(std::move(coverage));
+  add_cost(tree, spectra, levels, options, report);
+  add_image_errors(figures, report);
+  add_coverage(figures, report);
+  return figures;
+}
+
+std::vector<SurfaceDistances> measure_surfaces(const Tree& tree, const LodSpectra& spectra,
+                                               const std::vector<LodLevel>& levels, Context& context) {
+  Stage stage = context.stage("surfaces");
+  stage.items(levels.size(), "levels");
+  const DrawnMesh source = drawn_level(spectra, {});
+  const double size = length(bounds(source).extent());
+  Table table{.name = "surface",
+              .columns = {"Level", "Level to source (m)", "Level to source, largest (m)",
+                          "Source to level (m)", "Source to level, largest (m)", "Lost branch length"},
+              .rows = {}};
+  std::vector<SurfaceDistances> distances;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const SurfaceDistances d =
+        distances.emplace_back(surface_distance(source, drawn_level(spectra, levels[i])));
+    table.rows.push_back({fmt::format("{}", i), metres(d.from_level.mean, size),
+                          metres(d.from_level.max, size), metres(d.from_source.mean, size),
+                          metres(d.from_source.max, size),
+                          lost_length(tree, spectra.trunk, levels[i].trunk_steps)});
+  }
+  context.report().tables.push_back(std::move(table));
+  return distances;
 }
 
 }  // namespace copse::lodbake

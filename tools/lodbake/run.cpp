@@ -2,12 +2,11 @@
 
 #include "lib/analysis/lod/discrete_spectra.h"
 #include "lib/analysis/lod/floating_leaves.h"
-#include "lib/analysis/measure/surface_distance.h"
 #include "lib/formats/levels/spectrum_file.h"
 #include "lib/formats/tree_file/tree_file.h"
 #include "tools/lodbake/column_meanings.h"
 #include "tools/lodbake/impostor_stage.h"
-#include "tools/lodbake/level_pictures.h"
+#include "tools/lodbake/level_strip.h"
 #include "tools/lodbake/levels.h"
 #include "tools/lodbake/looks.h"
 #include "tools/lodbake/measure_stage.h"
@@ -70,14 +69,6 @@ std::vector<LodLevel> with_full_detail(const LodSpectra& spectra) {
   return levels;
 }
 
-std::vector<std::string> labels(const std::vector<LodLevel>& levels) {
-  std::vector<std::string> out;
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    out.push_back(fmt::format("{}: {} triangles ({:.3g} %)", i, levels[i].triangles,
-                              100.0 * levels[i].triangles / std::max(1u, levels[0].triangles)));
-  return out;
-}
-
 // What was asked for and is not to be had.
 void warn_of_levels(const Options& options, const LodSpectra& spectra,
                     const std::vector<std::uint64_t>& floating, Context& context) {
@@ -134,21 +125,21 @@ void report_levels(const Options& options, const Tree& tree, const LodSpectra& s
   report.curves.push_back(std::move(curve));
 }
 
-Result<void> check_errors(const Options& options, const LodSpectra& spectra) {
+// Names every level that errs too much, so that the limit need not be found by trial.
+Result<void> check_errors(const Options& options, const LodSpectra& spectra,
+                          const std::vector<SurfaceDistances>& surfaces) {
   if (!options.max_error) return {};
-  const DrawnMesh source = drawn_level(spectra, {});
-  for (std::size_t i = 0; i < spectra.discrete.size(); ++i) {
-    const LodLevel& level = spectra.discrete[i];
-    const SurfaceDistances d = surface_distance(source, drawn_level(spectra, level));
-    const double error = std::max(d.from_level.max, d.from_source.max);
+  std::string beyond;
+  for (std::size_t i = 1; i < surfaces.size(); ++i) {
+    const double error = std::max(surfaces[i].from_level.max, surfaces[i].from_source.max);
     if (error <= *options.max_error) continue;
-    return fail(
-        Fault::limit, options.input.string(),
-        fmt::format("level {} ({} triangles) is measured to err by {:.4g} m, --max-error allows {:.4g}",
-                    i + 1, level.triangles, error, *options.max_error),
-        "ask for more triangles, or allow more error");
+    beyond += fmt::format("{}level {} ({} triangles) by {:.4g} m", beyond.empty() ? "" : ", ", i,
+                          spectra.discrete[i - 1].triangles, error);
   }
-  return {};
+  if (beyond.empty()) return {};
+  return fail(Fault::limit, options.input.string(),
+              fmt::format("measured to err: {}; --max-error allows {:.4g} m", beyond, *options.max_error),
+              "ask for more triangles, or allow more error");
 }
 
 // A tree that is too small for levels loses those that it had.
@@ -166,7 +157,8 @@ Result<void> write_without_levels(const Options& options, const TreeFile& file,
 
 Result<void> write(const Options& options, const TreeFile& file, const Tree& tree,
                    const std::optional<PackedTree>& packed, const LodSpectra& stored,
-                   const BakedSpectra& baked, Context& context) {
+                   const BakedSpectra& baked, const std::optional<BakedImpostor>& impostor,
+                   Context& context) {
   Stage stage = context.stage("write");
   ContainerWriter writer(file.container());
   if (auto done = write_base(options, file, packed, writer, context); !done) return done;
@@ -176,7 +168,7 @@ Result<void> write(const Options& options, const TreeFile& file, const Tree& tre
   if (baked.cells) {
     if (auto done = put_foliage_cells(writer, *baked.cells); !done) return done;
   }
-  if (auto done = put_impostor(writer, baked.impostor); !done) return done;
+  if (auto done = put_impostor(writer, impostor ? impostor->atlas : ImpostorAtlas{}); !done) return done;
   const auto bytes = writer.finish();
   if (!bytes) return std::unexpected(bytes.error());
   stage.items(bytes->size(), "bytes");
@@ -188,6 +180,28 @@ Result<void> write(const Options& options, const TreeFile& file, const Tree& tre
     tell("quantisation of the leaves, largest", errors->leaves);
   }
   return context.write(options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+}
+
+// What was asked for, and the page's strip; the distances of full detail and every level if they were
+// measured.
+Result<std::vector<SurfaceDistances>> measure(const Options& options, const Tree& tree, const Looks& looks,
+                                              const BakedSpectra& baked,
+                                              const std::optional<BakedImpostor>& impostor,
+                                              Context& context) {
+  const LodSpectra& spectra = baked.spectra;
+  const std::vector<LodLevel> levels = with_full_detail(spectra);
+  std::vector<LevelFigures> figures;
+  std::vector<SurfaceDistances> surfaces;
+  if (options.measure) figures = measure_levels(tree, spectra, looks, levels, options, context);
+  if (options.measure || options.max_error) surfaces = measure_surfaces(tree, spectra, levels, context);
+  if (options.sweep) sweep(tree, baked, looks, options, context);
+  if (context.options().html.empty()) return surfaces;
+  Stage stage = context.stage("draw");
+  auto strip = level_strip(spectra, looks, {levels, figures, surfaces, impostor ? &*impostor : nullptr});
+  if (!strip) return std::unexpected(strip.error());
+  context.report().pictures.push_back(std::move(*strip));
+  context.report().tables.push_back(column_meanings(context.report().tables));
+  return surfaces;
 }
 
 }  // namespace
@@ -230,26 +244,19 @@ Result<void> run(const Options& options, Context& context) {
     stage.items(spectra->discrete.size(), "levels");
   }
   if (options.lines_points) report_projections(*tree, options.views, context);
+  std::optional<BakedImpostor> impostor;
   if (options.impostor > 0) {
-    auto impostor = bake_impostor(*spectra, looks, options, context);
-    if (!impostor) return std::unexpected(impostor.error());
-    baked->impostor = std::move(*impostor);
+    auto made = bake_impostor(*spectra, looks, options, context);
+    if (!made) return std::unexpected(made.error());
+    impostor = std::move(*made);
   }
-  const std::vector<LodLevel> levels = with_full_detail(*spectra);
-  if (options.measure) measure_levels(*tree, *spectra, looks.looks(), levels, options, context);
-  if (options.sweep) sweep(*tree, *spectra, looks.looks(), options, context);
-  if (!context.options().html.empty()) {
-    Stage stage = context.stage("pictures");
-    auto strip = level_strip(*spectra, looks.looks(), levels, labels(levels));
-    if (!strip) return std::unexpected(strip.error());
-    context.report().pictures.push_back(std::move(*strip));
-    context.report().tables.push_back(column_meanings(context.report().tables));
-  }
-  if (auto within = check_errors(options, *spectra); !within) return within;
+  const auto surfaces = measure(options, *tree, looks.looks(), *baked, impostor, context);
+  if (!surfaces) return std::unexpected(surfaces.error());
+  if (auto within = check_errors(options, *spectra, *surfaces); !within) return within;
   // Without --continuous the file has what the discrete levels need and no more.
   const LodSpectra stored = options.continuous ? *spectra : discrete_spectra(*spectra);
   if (auto done = number_leaves(stored.leaves, *packed, *tree); !done) return done;
-  return write(options, *file, *tree, *packed, stored, *baked, context);
+  return write(options, *file, *tree, *packed, stored, *baked, impostor, context);
 }
 
 }  // namespace copse::lodbake

@@ -32,20 +32,11 @@ Spectrum trunk_by_edges(const Tree& tree, const Options& options) {
   return edge_spectrum(trunk, collapse_edges(trunk, {.min_triangles = options.min_triangles}), radius);
 }
 
-Spectrum trunk_spectrum(const Tree& tree, const Options& options, Context& context) {
-  Stage stage = context.stage("trunk");
-  stage.items(tree.trunk.triangles.size(), "triangles");
-  const bool hierarchy = tree.radius_count() > 0 && !tree.trunk.lines.empty();
-  if (options.trunk == TrunkMethod::radii && !hierarchy && !tree.trunk.triangles.empty())
-    context.warn(fmt::format("{}: without a hierarchy and its segments the trunk goes by edges",
-                             options.input.string()));
-  return options.trunk == TrunkMethod::edges || !hierarchy ? trunk_by_edges(tree, options)
-                                                           : trunk_by_radii(tree, {.order = options.removal});
+bool has_limbs(const Tree& tree) {
+  return tree.radius_count() > 0 && !tree.trunk.lines.empty();
 }
 
-Spectrum collapsed(const Tree& tree, const Looks& looks, const Options& options, Context& context) {
-  CollapsedLumps lumps;
-  Spectrum s = collapse_spectrum(tree, looks, {.quality = options.quality, .errors = false}, &lumps);
+void tell_lumps(const Tree& tree, const Options& options, const CollapsedLumps& lumps, Context& context) {
   // What is left of them is seen from both sides only where both are drawn.
   const bool single_sided = std::any_of(tree.materials.begin(), tree.materials.end(),
                                         [](const Material& m) { return !m.double_sided; });
@@ -54,41 +45,41 @@ Spectrum collapsed(const Tree& tree, const Looks& looks, const Options& options,
         fmt::format("{}: {} triangles of leaves lie on others, as in leaves made from both sides; levels "
                     "draw one of each: give leaves a double-sided material",
                     options.input.string(), lumps.twins));
-  if (lumps.lumps > 0)
-    context.report().tables.push_back(
-        {.name = "leaves by edges",
-         .columns = {"Lumps", "Triangles", "Share of the leaf area", "Edges until (triangles)"},
-         .rows = {{fmt::format("{}", lumps.lumps), fmt::format("{}", lumps.triangles),
-                   fmt::format("{:.3f}", lumps.share), fmt::format("{}", lumps.left)}}});
-  return s;
-}
-
-Spectrum leaf_spectrum(const Tree& tree, const Looks& looks, const Options& options, Context& context,
-                       std::optional<FoliageCells>& cells) {
-  Stage stage = context.stage("leaves");
-  stage.items(tree.leaves.triangles.size(), "triangles");
-  if (options.foliage == FoliageMethod::collapse || tree.leaves.triangles.empty())
-    return collapsed(tree, looks, options, context);
-  // Small cells hold few leaves: these could not grow.
-  const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(1, tree.leaf_count() / k_leaves_a_cell));
-  cells = prune_foliage(tree, looks,
-                        {.cells = options.cells_given ? options.cells : std::min(options.cells, most),
-                         .views = options.views,
-                         .seed = context.options().seed,
-                         .near = options.near.value_or(0),
-                         .far = options.far.value_or(0)});
-  return pruned_spectrum(tree, *cells);
+  if (lumps.lumps == 0) return;
+  context.report().tables.push_back(
+      {.name = "leaves by edges",
+       .columns = {"Lumps", "Triangles", "Share of the leaf area", "Edges until (triangles)"},
+       .rows = {{fmt::format("{}", lumps.lumps), fmt::format("{}", lumps.triangles),
+                 fmt::format("{:.3f}", lumps.share), fmt::format("{}", lumps.left)}}});
 }
 
 }  // namespace
 
-Result<BakedSpectra> make_spectra(const Tree& tree, const Looks& looks, const Options& options,
-                                  Context& context) {
-  BakedSpectra baked;
-  LodSpectra& spectra = baked.spectra;
-  spectra.trunk = trunk_spectrum(tree, options, context);
-  spectra.leaves = leaf_spectrum(tree, looks, options, context, baked.cells);
-  Stage stage = context.stage("divide");
+Spectrum trunk_spectrum(const Tree& tree, const Options& options) {
+  return options.trunk == TrunkMethod::edges || !has_limbs(tree)
+             ? trunk_by_edges(tree, options)
+             : trunk_by_radii(tree, {.order = options.removal});
+}
+
+LeafParts leaf_spectrum(const Tree& tree, const Looks& looks, const Options& options, std::uint64_t seed) {
+  LeafParts out;
+  if (options.foliage == FoliageMethod::collapse || tree.leaves.triangles.empty()) {
+    out.spectrum = collapse_spectrum(tree, looks, {.quality = options.quality, .errors = false}, &out.lumps);
+    return out;
+  }
+  // Small cells hold few leaves: these could not grow.
+  const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(1, tree.leaf_count() / k_leaves_a_cell));
+  out.cells = prune_foliage(tree, looks,
+                            {.cells = options.cells_given ? options.cells : std::min(options.cells, most),
+                             .views = options.views,
+                             .seed = seed,
+                             .near = options.near.value_or(0),
+                             .far = options.far.value_or(0)});
+  out.spectrum = pruned_spectrum(tree, *out.cells);
+  return out;
+}
+
+void divide(const Tree& tree, const Looks& looks, const Options& options, LodSpectra& spectra) {
   const bool both = !spectra.trunk.elements.empty() && !spectra.leaves.elements.empty();
   LevelError error;
   std::optional<LevelPictures> pictures;
@@ -107,6 +98,30 @@ Result<BakedSpectra> make_spectra(const Tree& tree, const Looks& looks, const Op
     };
   }
   couple(spectra, error, coupling);
+}
+
+Result<BakedSpectra> make_spectra(const Tree& tree, const Looks& looks, const Options& options,
+                                  Context& context) {
+  BakedSpectra baked;
+  LodSpectra& spectra = baked.spectra;
+  {
+    Stage stage = context.stage("trunk");
+    stage.items(tree.trunk.triangles.size(), "triangles");
+    if (options.trunk == TrunkMethod::radii && !has_limbs(tree) && !tree.trunk.triangles.empty())
+      context.warn(fmt::format("{}: without a hierarchy and its segments the trunk goes by edges",
+                               options.input.string()));
+    spectra.trunk = trunk_spectrum(tree, options);
+  }
+  {
+    Stage stage = context.stage("leaves");
+    stage.items(tree.leaves.triangles.size(), "triangles");
+    LeafParts leaves = leaf_spectrum(tree, looks, options, context.options().seed);
+    tell_lumps(tree, options, leaves.lumps, context);
+    spectra.leaves = std::move(leaves.spectrum), baked.cells = std::move(leaves.cells);
+  }
+  if (options.sweep) baked.as_made = spectra;
+  Stage stage = context.stage("divide");
+  divide(tree, looks, options, spectra);
   stage.items(spectra.schedule.size(), "knots");
   return baked;
 }

@@ -1,7 +1,3 @@
-#include "lib/analysis/lod/coupling.h"
-#include "lib/analysis/lod/edge_collapse.h"
-#include "lib/analysis/lod/edge_spectrum.h"
-#include "lib/analysis/lod/foliage_pruning.h"
 #include "lib/analysis/measure/lod_quality.h"
 #include "lib/runtime/levels.h"
 #include "tools/lodbake/gltfpack.h"
@@ -10,6 +6,9 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <meshoptimizer.h>
@@ -87,24 +86,74 @@ Made level_of(const LodSpectra& spectra, std::uint64_t target) {
   return {drawn_level(spectra, level), area(drawn_state(spectra.leaves, level.leaf_steps))};
 }
 
+// What the tool makes of other options.
+struct Variant {
+  std::string name;
+  LodSpectra spectra;
+};
+
+// The options as given, each time with one of them the other way: what stays as it was is not made again.
+class Variants {
+ public:
+  Variants(const Tree& tree, const LodSpectra& as_made, const Looks& looks, const Options& options,
+           std::uint64_t seed)
+      : tree_(tree), as_made_(as_made), looks_(looks), options_(options), seed_(seed) {}
+
+  std::vector<Variant> make() {
+    const bool trunk = !as_made_.trunk.elements.empty(), leaves = !as_made_.leaves.elements.empty();
+    if (trunk && leaves) other_division();
+    if (trunk) other_trunk();
+    if (leaves) other_leaves();
+    return std::move(out_);
+  }
+
+ private:
+  void add(std::string name, const Options& options, LodSpectra spectra) {
+    divide(tree_, looks_, options, spectra);
+    out_.push_back({std::move(name), std::move(spectra)});
+  }
+  void other_division() {
+    Options other = options_;
+    const bool even = options_.division == Division::picture;
+    other.division = even ? Division::even : Division::picture;
+    add(even ? "copse, even" : "copse, by pictures", other, as_made_);
+  }
+  void other_trunk() {
+    Options other = options_;
+    const bool edges = options_.trunk == TrunkMethod::radii;
+    other.trunk = edges ? TrunkMethod::edges : TrunkMethod::radii;
+    LodSpectra spectra = as_made_;
+    spectra.trunk = trunk_spectrum(tree_, other);
+    if (spectra.trunk.method == as_made_.trunk.method) return;  // without limbs there is one way alone
+    add(edges ? "copse, trunk by edges" : "copse, trunk by radii", other, std::move(spectra));
+  }
+  void other_leaves() {
+    Options other = options_;
+    const bool prune = options_.foliage == FoliageMethod::collapse;
+    other.foliage = prune ? FoliageMethod::prune : FoliageMethod::collapse;
+    LodSpectra spectra = as_made_;
+    spectra.leaves = leaf_spectrum(tree_, looks_, other, seed_).spectrum;
+    add(prune ? "copse, leaves pruned" : "copse, leaves collapsed", other, std::move(spectra));
+    if (!prune || options_.quality == CollapseQuality::fast) return;
+    other = options_, other.quality = CollapseQuality::fast;
+    spectra = as_made_;
+    spectra.leaves = leaf_spectrum(tree_, looks_, other, seed_).spectrum;
+    add("copse, leaves fast", other, std::move(spectra));
+  }
+
+  const Tree& tree_;
+  const LodSpectra& as_made_;
+  const Looks& looks_;
+  const Options& options_;
+  std::uint64_t seed_;
+  std::vector<Variant> out_;
+};
+
 // All methods at the same number of triangles.
 class Contest {
  public:
-  Contest(const Tree& tree, const LodSpectra& spectra, const Looks& looks, const Options& options,
-          std::uint64_t seed)
-      : spectra_(spectra),
-        even_(spectra),
-        edges_(spectra),
-        pruned_(spectra),
-        gltfpack_(Gltfpack::find(tree)) {
-    couple(even_, nullptr);
-    const PartTriangles trunk = trunk_triangles(tree);
-    edges_.trunk = edge_spectrum(trunk, collapse_edges(trunk), {});
-    couple(edges_, nullptr);
-    pruned_.leaves = pruned_spectrum(
-        tree, prune_foliage(tree, looks, {.cells = options.cells, .views = 12, .seed = seed}));
-    couple(pruned_, nullptr);
-  }
+  Contest(const Tree& tree, const LodSpectra& spectra, std::vector<Variant> variants)
+      : spectra_(spectra), variants_(std::move(variants)), gltfpack_(Gltfpack::find(tree)) {}
 
   bool has_gltfpack() const { return gltfpack_.has_value(); }
 
@@ -112,9 +161,7 @@ class Contest {
   template <class Add>
   void each(double share, std::uint64_t target, Add&& add) const {
     add("copse", level_of(spectra_, target));
-    add("copse, even", level_of(even_, target));
-    add("copse, trunk by edges", level_of(edges_, target));
-    add("copse, leaves pruned", level_of(pruned_, target));
+    for (const Variant& v : variants_) add(v.name.c_str(), level_of(v.spectra, target));
     add("meshoptimizer, one mesh", peer(spectra_, target, true));
     add("meshoptimizer, each part", peer(spectra_, target, false));
     for (const bool aggressive : {false, true}) {
@@ -125,19 +172,21 @@ class Contest {
 
  private:
   const LodSpectra& spectra_;
-  LodSpectra even_, edges_, pruned_;
+  std::vector<Variant> variants_;
   std::optional<Gltfpack> gltfpack_;
 };
 
 }  // namespace
 
-void sweep(const Tree& tree, const LodSpectra& spectra, const Looks& looks, const Options& options,
+void sweep(const Tree& tree, const BakedSpectra& baked, const Looks& looks, const Options& options,
            Context& context) {
   Stage stage = context.stage("sweep");
+  const LodSpectra& spectra = baked.spectra;
   const DrawnMesh source = drawn_level(spectra, {});
   const double leaf_area = area(drawn_state(spectra.leaves, 0));
   const auto full = static_cast<double>(source.triangles.size());
-  const Contest contest(tree, spectra, looks, options, context.options().seed);
+  const Contest contest(tree, spectra,
+                        Variants(tree, baked.as_made, looks, options, context.options().seed).make());
   if (!contest.has_gltfpack())
     context.warn("--sweep: gltfpack is not installed (npm install gltfpack), its rows are left out");
   Table table{.name = "sweep",
@@ -160,11 +209,8 @@ void sweep(const Tree& tree, const LodSpectra& spectra, const Looks& looks, cons
     });
   };
   for (const double share : k_shares)
-    rows(table, share, static_cast<std::uint64_t>(std::floor(share * full)),
-         share >= 0.25   ? 512
-         : share >= 0.05 ? 128
-                         : 32);
-  if (full > k_last) rows(last, k_last / full, k_last, 32);
+    rows(table, share, static_cast<std::uint64_t>(std::floor(share * full)), shown_size(share));
+  if (full > k_last) rows(last, k_last / full, k_last, shown_size(0));
   stage.items(table.rows.size() + last.rows.size(), "levels");
   for (Table* t : {&table, &last})
     if (!t->rows.empty()) context.report().tables.push_back(std::move(*t));

@@ -30,8 +30,10 @@ h3{margin:28px 0 8px;font-size:1rem;font-weight:600}
 .figures dd+dd{font-size:.82rem;font-weight:400;color:var(--soft)}
 .scroll{overflow-x:auto;background:var(--card);border:1px solid var(--rule);border-radius:10px}
 table{border-collapse:collapse;width:100%;font-size:.92rem}
-th,td{padding:8px 16px;text-align:left;vertical-align:baseline;border-top:1px solid var(--rule)}
-thead th{border-top:0;color:var(--soft);font-weight:500;font-size:.82rem;white-space:nowrap}
+th,td{padding:8px 10px;text-align:left;vertical-align:baseline;border-top:1px solid var(--rule)}
+th:first-child,td:first-child{padding-left:16px}
+th:last-child,td:last-child{padding-right:16px}
+thead th{border-top:0;color:var(--soft);font-weight:500;font-size:.82rem;vertical-align:bottom}
 tbody th{font-weight:500}
 .n{text-align:right;white-space:nowrap}
 .soft{color:var(--soft)}
