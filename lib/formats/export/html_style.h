@@ -34,6 +34,7 @@ th,td{padding:8px 10px;text-align:left;vertical-align:baseline;border-top:1px so
 th:first-child,td:first-child{padding-left:16px}
 th:last-child,td:last-child{padding-right:16px}
 thead th{border-top:0;color:var(--soft);font-weight:500;font-size:.82rem;vertical-align:bottom}
+thead th.n{white-space:normal}
 tbody th{font-weight:500}
 .n{text-align:right;white-space:nowrap}
 .soft{color:var(--soft)}
