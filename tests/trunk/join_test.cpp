@@ -56,6 +56,25 @@ TEST(Join, LeavesRingsApartThatDifferInPlaceOrThickness) {
   EXPECT_NE(limbs.limb[0], limbs.limb[6]);
 }
 
+TEST(Join, MergesFacingRingsOfOneThicknessThatARoughFileMovedALittle) {
+  struct Case {
+    Double3 from, step;
+    double diameter;
+    bool is_one;
+  };
+  for (const Case& c :
+       {Case{{0.02, 2.005, 0}, {0, 1, 0}, 1, true}, Case{{0.05, 2, 0}, {0, 1, 0}, 1, false},
+        Case{{0.02, 2.005, 0}, {0, -1, 0}, 1, false}, Case{{0.02, 2.005, 0}, {0, 1, 0}, 0.98, false}}) {
+    Limbs limbs;
+    add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 1});
+    add_limb(limbs, c.from, c.step, {c.diameter, c.diameter, c.diameter});
+    for (Double3& n : limbs.normal) n = {0, 1, 0};
+    LimbSegments segments(limbs);
+    join(limbs, segments);
+    EXPECT_EQ(limbs.limb[0] == limbs.limb[3], c.is_one) << c.from.x << ' ' << c.step.y << ' ' << c.diameter;
+  }
+}
+
 TEST(Join, LeavesABranchItsOwnRingWhereItBeginsAmidItsParent) {
   Limbs limbs;
   add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 1});

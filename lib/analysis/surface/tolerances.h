@@ -55,6 +55,9 @@ inline constexpr double k_regular_ring = 1e-2;
 // Share of the radius by which two rings that are one may differ in centre and, of the diameter, in diameter.
 // Files with six decimals round a twig of 5 mm at 2e-4 of its radius; segments are longer than a radius.
 inline constexpr double k_join_tolerance = 1e-3;
+// The same of the centres, where end rings face one another and are equally thick: the mean of a rough ring's
+// vertices moves when the ring is turned by half a side.
+inline constexpr double k_join_facing = 0.05;
 // Cosine between the normals of rings that lie in one plane: 8 degrees.
 inline constexpr double k_one_plane = 0.99;
 // Ratio of the diameters of two ends that do not tell which is the base: tubes taper by more, rounding by

@@ -45,8 +45,8 @@ double seam_reach(double radius, double size) {
   return std::max(k_join_tolerance * radius, std::min(k_weld_of_edge * radius, 2 * k_rounding * size));
 }
 
-bool coincide(const Limbs& limbs, std::uint32_t a, std::uint32_t b, double reach) {
-  return distance(limbs.centre[a], limbs.centre[b]) <= reach &&
+bool coincide(const Limbs& limbs, std::uint32_t a, std::uint32_t b, double apart, double reach) {
+  return distance(limbs.centre[a], limbs.centre[b]) <= apart &&
          std::abs(limbs.diameter[a] - limbs.diameter[b]) <= 2 * reach;
 }
 
@@ -148,8 +148,8 @@ void join(Limbs& limbs, LimbSegments& segments) {
   for (const std::uint32_t end : ends) {
     const double radius = limbs.diameter[end] / 2;
     if (radius <= 0) continue;
-    const double seam = seam_reach(radius, size);
-    segments.tree.near(limbs.centre[end], seam, radius, limbs.limb[end], k_candidates, found);
+    const double seam = seam_reach(radius, size), facing = std::max(seam, k_join_facing * radius);
+    segments.tree.near(limbs.centre[end], facing, radius, limbs.limb[end], k_candidates, found);
     for (const Nearness& near : found) {
       for (const std::uint32_t ring : segments.rings[near.segment]) {
         // A limb that begins amid another one, at an angle, is a branch of it, however thick.
@@ -158,7 +158,9 @@ void join(Limbs& limbs, LimbSegments& segments) {
         if (is_start[end] && is_start[ring]) continue;
         const double thick = std::max(limbs.diameter[end], limbs.diameter[ring]) / 2;
         const bool wide = go_on(limbs, next, end, ring, is_end[ring] != 0);
-        if (coincide(limbs, end, ring, wide ? seam : k_join_tolerance * thick)) joints.merge(end, ring);
+        const double reach = wide ? seam : k_join_tolerance * thick;
+        const double apart = wide && is_end[ring] ? facing : reach;
+        if (coincide(limbs, end, ring, apart, reach)) joints.merge(end, ring);
       }
     }
   }
