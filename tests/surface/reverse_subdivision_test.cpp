@@ -42,6 +42,32 @@ TEST(ReverseSubdivision, FindsTheCellsThatWereSmoothed) {
   }
 }
 
+// One step over a column of cells, in which the square at each of `heights` was kept: its corners where they
+// are, its sides straight (`straight`) or smooth.
+Surface with_kept_squares(const std::vector<int>& heights, bool straight) {
+  std::vector<Cell> column;
+  for (int y = 0; y < 60; ++y) column.push_back({0, y, 0});
+  Surface s = surface_of(smooth_cells(column, 1));
+  for (Double3& p : s.positions) {
+    if (std::ranges::none_of(heights, [&](int y) { return std::abs(p.y - y) < 1e-9; })) continue;
+    const auto kept = [](double x) { return std::abs(x - 0.5) < 1e-9 ? x : std::round(x); };
+    const bool is_corner = std::abs(p.x - 0.5) > 1e-9 && std::abs(p.z - 0.5) > 1e-9;
+    if (is_corner || straight) p = {kept(p.x), p.y, kept(p.z)};
+  }
+  return s;
+}
+
+TEST(ReverseSubdivision, FindsCornersThatWereKeptWhereTheyAreAndSidesThatWereKeptStraight) {
+  for (const bool straight : {false, true}) {
+    for (const std::vector<int>& heights : {std::vector<int>{30}, {12, 13}, {20, 40, 43}}) {
+      const auto cage = reverse_subdivision(with_kept_squares(heights, straight));
+      ASSERT_TRUE(cage);
+      EXPECT_EQ(cage->faces.count(), 242u);
+      for (const Double3& p : cage->positions) EXPECT_LE(off_the_grid(p), 1e-6) << p.y << ' ' << straight;
+    }
+  }
+}
+
 TEST(ReverseSubdivision, ForgivesTheRoundingOfAFile) {
   Surface s = surface_of(smooth_cells(k_cells, 2));
   for (Double3& p : s.positions)

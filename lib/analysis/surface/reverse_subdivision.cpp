@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace copse {
@@ -74,8 +75,10 @@ struct Step {
   std::vector<std::uint32_t> faces_at;        // one a vertex of the surface: of vertices and edge points
   std::vector<std::uint32_t> edges_at;        // of vertices
   std::vector<std::uint32_t> sharp_edges_at;  // of vertices
+  std::vector<std::uint8_t> is_corner;        // of vertices: whether they stay where they are
+  std::vector<std::uint8_t> is_straight;      // of edge points: whether they do, between such vertices
 
-  bool is_sharp(std::uint32_t edge) const { return faces_at[edge] != 2; }
+  bool is_sharp(std::uint32_t edge) const { return faces_at[edge] != 2 || is_straight[edge]; }
 };
 
 // A quad as seen from its face point: the edge points beside it, the vertex opposite.
@@ -138,6 +141,8 @@ bool read_edges(const std::vector<Kind>& kinds, Step& step) {
   step.faces_at.assign(kinds.size(), 0);
   step.edges_at.assign(kinds.size(), 0);
   step.sharp_edges_at.assign(kinds.size(), 0);
+  step.is_corner.assign(kinds.size(), 0);
+  step.is_straight.assign(kinds.size(), 0);
   for (std::size_t f = 0; f < step.faces.size(); ++f) {
     const auto corners = step.corners[f], sides = step.sides[f];
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -202,7 +207,7 @@ class Forward {
             (faces_[v] / static_cast<double>(step_.faces_at[v]) + edges_[v] * (2 / n) + cage[v] * (n - 3)) /
             n;
       } else {
-        out[v] = step_.sharp_edges_at[v] == 2 ? cage[v] / 2.0 + edges_[v] / 4.0 : cage[v];
+        out[v] = is_on_crease(v) ? cage[v] / 2.0 + edges_[v] / 4.0 : cage[v];
       }
     }
   }
@@ -224,7 +229,7 @@ class Forward {
         out[v] = (from[v] * n + edges_[v] * (4 / n) + faces_[v] / static_cast<double>(step_.faces_at[v])) /
                  (n + 5);
       } else {
-        out[v] = step_.sharp_edges_at[v] == 2 ? from[v] * (4.0 / 6) + edges_[v] / 6.0 : from[v];
+        out[v] = is_on_crease(v) ? from[v] * (4.0 / 6) + edges_[v] / 6.0 : from[v];
       }
     }
     if (everywhere) push_points(from, out);
@@ -235,7 +240,8 @@ class Forward {
     std::ranges::fill(faces_, Double3{});
     std::ranges::fill(edges_, Double3{});
   }
-  bool is_smooth(std::uint32_t v) const { return step_.sharp_edges_at[v] < 2; }
+  bool is_smooth(std::uint32_t v) const { return !step_.is_corner[v] && step_.sharp_edges_at[v] < 2; }
+  bool is_on_crease(std::uint32_t v) const { return !step_.is_corner[v] && step_.sharp_edges_at[v] == 2; }
   // Along a crease the edges beside it do not matter.
   bool counts_at(std::uint32_t v, std::uint32_t edge) const { return is_smooth(v) || step_.is_sharp(edge); }
 
@@ -271,12 +277,13 @@ double diagonal(const std::vector<Double3>& positions) {
   return length(box.extent());
 }
 
-// How far most edge points and face points are from where they should be, and that as a share of an edge.
+// How far off a share of the edge points and face points is at most, and that over the length of an edge.
 struct Misfit {
   double off = 0, share = 0;
 };
 
-Misfit misfit_of(const Step& step, const std::vector<Double3>& target, const std::vector<Double3>& made) {
+Misfit misfit_of(const Step& step, const std::vector<Double3>& target, const std::vector<Double3>& made,
+                 double of_points) {
   std::vector<double> off, share;
   for (std::size_t f = 0; f < step.faces.size(); ++f) {
     const std::uint32_t p = step.faces[f];
@@ -288,7 +295,7 @@ Misfit misfit_of(const Step& step, const std::vector<Double3>& target, const std
       share.push_back(edge > 0 ? off.back() / edge : 1);
     }
   }
-  const auto most = static_cast<std::ptrdiff_t>(k_foretold_share * static_cast<double>(off.size() - 1));
+  const auto most = static_cast<std::ptrdiff_t>(of_points * static_cast<double>(off.size() - 1));
   std::ranges::nth_element(off, off.begin() + most);
   std::ranges::nth_element(share, share.begin() + most);
   return {off[static_cast<std::size_t>(most)], share[static_cast<std::size_t>(most)]};
@@ -335,9 +342,15 @@ class Solver {
   }
 
   std::vector<Double3>& cage() { return cage_; }
-  // How far off the rest is, once run() has succeeded; nothing where that is too far for rounding.
-  std::optional<double> precision() const {
-    const Misfit misfit = misfit_of(step_, target_, made());
+  void take(Solver& other) {
+    cage_.swap(other.cage_), stepped_.swap(other.stepped_), made_.swap(other.made_);
+  }
+  // How far an edge point or face point is from where it should be.
+  double off(std::uint32_t point) const { return distance(target_[point], made()[point]); }
+  // How far off this share of the rest is, once run() has succeeded; nothing where that is too far for
+  // rounding.
+  std::optional<double> precision(double of_points) const {
+    const Misfit misfit = misfit_of(step_, target_, made(), of_points);
     const bool fits =
         misfit.off <= k_foretold_of_diagonal * diagonal(target_) && misfit.share <= k_foretold_of_edge;
     return fits ? std::optional(misfit.off) : std::nullopt;
@@ -349,7 +362,7 @@ class Solver {
   // Whether the rest may turn out to be where it should, by a cage that is not yet exact.
   bool looks_foretold() {
     make(true);
-    return misfit_of(step_, target_, made()).share <= k_judged_slack * k_foretold_of_edge;
+    return misfit_of(step_, target_, made(), k_first_share).share <= k_judged_slack * k_foretold_of_edge;
   }
 
   void make(bool everywhere) {
@@ -380,6 +393,97 @@ struct Undone {
   double precision = 0;
 };
 
+// The vertices of the cage that were kept where they are, and the edges between them that were kept straight,
+// as modelling programs do beside faces within the surface, which they then leave out: the mesh does not tell
+// which, but where one of them is taken for smooth, all points beside it are off, and what is true of it
+// makes them exact.
+class Corners {
+ public:
+  Corners(Step& step, const std::vector<Double3>& target, bool on_limit, double precision)
+      : step_(step),
+        target_(target),
+        on_limit_(on_limit),
+        allowed_(k_corner_off * std::max(precision, k_solved_share * diagonal(target))) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> points, faces;
+    for (std::uint32_t f = 0; f < step.faces.size(); ++f) {
+      for (const std::uint32_t v : step.corners[f])
+        points.emplace_back(v, step.faces[f]), faces.emplace_back(v, f);
+    }
+    for (const std::uint32_t e : step.edges) {
+      for (const std::uint32_t v : step.ends[e]) points.emplace_back(v, e);
+    }
+    points_at_ = make_lists(points, target.size());
+    faces_at_ = make_lists(faces, target.size());
+  }
+
+  // Marks corners in the step for as long as that helps; the cage is then the solver's.
+  void find(Solver& solver) {
+    measure(solver);
+    for (int round = 0; round < k_corner_rounds; ++round) {
+      const std::vector<std::uint32_t> doubtful = doubtful_vertices();
+      if (doubtful.empty()) return;
+      mark(doubtful, 1);
+      const std::vector<double> before = off_;
+      if (!solve_again(solver)) return mark(doubtful, 0);
+      std::vector<std::uint32_t> wrong = doubtful;
+      std::erase_if(wrong, [&](std::uint32_t v) { return off_[v] < before[v] / 2; });
+      if (wrong.empty()) continue;
+      mark(wrong, 0);
+      if (!solve_again(solver) || wrong.size() == doubtful.size()) return;
+    }
+  }
+
+ private:
+  // Between two corners an edge is straight where its point is in their middle.
+  void mark(std::span<const std::uint32_t> vertices, std::uint8_t corner) {
+    for (const std::uint32_t v : vertices) step_.is_corner[v] = corner;
+    for (const std::uint32_t e : step_.edges) {
+      const auto [a, b] = step_.ends[e];
+      step_.is_straight[e] = step_.is_corner[a] && step_.is_corner[b] &&
+                             distance(target_[e], (target_[a] + target_[b]) / 2.0) <= allowed_;
+    }
+  }
+  bool solve_again(Solver& solver) {
+    Solver again(step_, target_, on_limit_);
+    if (!again.run()) return false;
+    measure(again);
+    solver.take(again);
+    return true;
+  }
+
+  // How far the points beside each vertex are off, in the mean; nothing where one of them is not.
+  void measure(const Solver& solver) {
+    off_.assign(target_.size(), 0);
+    for (const std::uint32_t v : step_.vertices) {
+      double sum = 0, least = std::numeric_limits<double>::infinity();
+      for (const std::uint32_t p : points_at_[v])
+        sum += solver.off(p), least = std::min(least, solver.off(p));
+      off_[v] = least > allowed_ ? sum / static_cast<double>(points_at_[v].size()) : 0;
+    }
+  }
+
+  // The vertices with all points off, and not because of a neighbour.
+  std::vector<std::uint32_t> doubtful_vertices() const {
+    std::vector<std::uint32_t> doubtful;
+    for (const std::uint32_t v : step_.vertices) {
+      if (step_.is_corner[v] || off_[v] == 0) continue;
+      double most = 0;
+      for (const std::uint32_t f : faces_at_[v]) {
+        for (const std::uint32_t n : step_.corners[f]) most = std::max(most, off_[n]);
+      }
+      if (off_[v] >= k_corner_share * most) doubtful.push_back(v);
+    }
+    return doubtful;
+  }
+
+  Step& step_;
+  const std::vector<Double3>& target_;
+  bool on_limit_;
+  double allowed_;
+  Lists points_at_, faces_at_;  // one a vertex
+  std::vector<double> off_;
+};
+
 std::optional<Undone> undo(const Level& level, bool on_limit) {
   for (const bool edges_first : {true, false}) {
     for (const bool swapped : {false, true}) {
@@ -387,7 +491,10 @@ std::optional<Undone> undo(const Level& level, bool on_limit) {
       if (!step) continue;
       Solver solver(*step, level.positions, on_limit);
       if (!solver.run()) continue;
-      if (const std::optional<double> precision = solver.precision())
+      const std::optional<double> first = solver.precision(k_first_share);
+      if (!first) continue;
+      Corners(*step, level.positions, on_limit, *first).find(solver);
+      if (const std::optional<double> precision = solver.precision(k_foretold_share))
         return Undone{std::move(*step), std::move(solver.cage()), *precision};
     }
   }

@@ -27,9 +27,12 @@ struct Cage {
 // foretell every edge point and face point, and unless they are where they should be, as far as a file's
 // rounding goes, nothing was subdivided. Both are tried: points as a step puts them, and pushed to the limit
 // surface (Halstead, Kass and DeRose 1993) as modelling programs show them. Edges of one or of more than two
-// faces count as sharp. Repeated for as long as what is left is a subdivision of something coarser. None
-// where the surface is not of quads, where the connectivity or the positions say that it was not subdivided,
-// or where it is not connected through edges. O(n log n).
+// faces count as sharp. Vertices that the program kept where they were, and edges between them that it kept
+// straight (it does so beside faces within the surface that it then leaves out, so that nothing else tells),
+// are found where the points beside them contradict and agree once that is taken to be so. Repeated for as
+// long as what is left is a subdivision of something coarser. None where the surface is not of quads, where
+// the connectivity or the positions say that it was not subdivided, or where it is not connected through
+// edges. O(n log n).
 std::optional<Cage> reverse_subdivision(const Surface& surface);
 
 }  // namespace copse

@@ -173,8 +173,16 @@ inline constexpr int k_solver_rounds = 200;
 // more rounds.
 inline constexpr int k_judged_round = 12;
 inline constexpr double k_judged_slack = 2;
+// Times the precision by which a point must be off to say that a vertex beside it was kept where it is; how
+// far off on average the points beside such a vertex are, at least, as a share of the most about a neighbour
+// (what is wrong about one vertex falls to a fourth from edge to edge); and how often such are looked for.
+inline constexpr double k_corner_off = 8;
+inline constexpr double k_corner_share = 0.5;
+inline constexpr int k_corner_rounds = 16;
 // Share of the edge points and face points that must be where the cage foretells them ...
 inline constexpr double k_foretold_share = 0.9;
+// ... and this share already before vertices are looked for that were kept where they are ...
+inline constexpr double k_first_share = 0.5;
 // ... within this share of the diagonal (five decimals of a ten metre tree; a circle of sixteen is off the
 // curve that eight of its points foretell by more, unless it is a ten-thousandth of the tree) and this
 // share of an edge.
