@@ -178,6 +178,28 @@ TEST(SpectrumFile, LevelsComeBack) {
   EXPECT_EQ(back.far, s.far);
 }
 
+TEST(SpectrumFile, WhatIsCodedSmallHasItsLevelsCompressedAndTheyComeBack) {
+  LodSpectra s = levels();
+  for (std::uint32_t n = 4; n < 20; ++n) {
+    s.schedule.push_back(s.schedule.back());
+    s.schedule[s.schedule.size() - 2] =
+        LodLevel{n, n + 2, s.trunk.counts[n] + s.leaves.counts[n + 2], 0.1f + 0.01f * n, 0};
+  }
+  for (const bool small : {false, true}) {
+    ContainerWriter writer(FileKind::tree);
+    ASSERT_TRUE(put_spectra(writer, s, {.coding = small ? SpectrumCoding::small : SpectrumCoding::fast}));
+    const auto file = Container::from_bytes(writer.finish().value(), "f");
+    ASSERT_TRUE(file.has_value());
+    const SectionInfo* section = file->find("LSLD");
+    ASSERT_NE(section, nullptr);
+    EXPECT_EQ(section->encoding, small ? Encoding::zstd : Encoding::raw);
+    const auto back = load_spectra(*file, 100, 100);
+    ASSERT_TRUE(back.has_value()) << back.error().what;
+    EXPECT_EQ(back->schedule, s.schedule);
+    EXPECT_EQ(back->discrete, s.discrete);
+  }
+}
+
 TEST(SpectrumFile, LevelsThatDoNotFitAreRefused) {
   const auto refused = [](LodSpectra s) {
     LodSpectra back;

@@ -200,7 +200,8 @@ Result<SpectraErrors> put_spectra(ContainerWriter& writer, const LodSpectra& spe
   };
   if (auto done = add("LSTR", spectra.trunk, errors.trunk); !done) return std::unexpected(done.error());
   if (auto done = add("LSLV", spectra.leaves, errors.leaves); !done) return std::unexpected(done.error());
-  if (auto done = writer.put("LSLD", k_spectrum_version, 1, encode_levels(spectra)); !done)
+  const Encoding encoding = options.coding == SpectrumCoding::fast ? Encoding::raw : Encoding::zstd;
+  if (auto done = writer.put("LSLD", k_spectrum_version, 1, encode_levels(spectra), encoding); !done)
     return std::unexpected(done.error());
   return errors;
 }
