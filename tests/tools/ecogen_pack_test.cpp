@@ -58,7 +58,7 @@ TEST_F(Ecogen, PackingLeavesOutLevelsThatNoFrameReaches) {
 TEST_F(Ecogen, PackingLeavesOutThePictureBehindLevelsThatNoFrameReaches) {
   write_rich_tree(folder_);
   ASSERT_EQ(run_process({"lodbake", file("rich.stree"), "-o", file("rich.stree"), "--discrete", "0.5",
-                         "--near", "10", "--far", "40", "--impostor", "32", "--impostor-views", "2"})
+                         "--far", "40", "--impostor", "32", "--impostor-views", "2"})
                 .status,
             0);
   page_["types"] = Json::parse(R"([{"name": "rich", "tree": "rich.stree", "count": 5}])");
