@@ -14,7 +14,14 @@ constexpr int k_most_samples = 64;
 
 // Of moves, each along one direction: a shape that fits is in after a few; one that does not fit is left.
 constexpr int k_rounds = 8;
-constexpr int k_hull_subdivisions = 2;  // 162 directions
+constexpr int k_hull_subdivisions = 3;  // 642 directions, each with its opposite
+
+// One of a direction and its opposite.
+bool ahead(const Double3& d) {
+  constexpr double k_none = 1e-9;
+  if (std::abs(d.z) > k_none) return d.z > 0;
+  return std::abs(d.y) > k_none ? d.y > 0 : d.x > 0;
+}
 
 // One pass of the exact distance transform along a line (Felzenszwalb, Huttenlocher 2012): the lower envelope
 // of parabolas.
@@ -198,37 +205,57 @@ void CrownField::measure_hull(std::span<const FoliageTriangle> triangles) {
       if (outer_[index(x, y, z)] != 0) points.push_back(p - low_);
     }
   }
-  directions_ = view_sphere(k_hull_subdivisions).directions;
-  for (const Double3& d : directions_)
-    for (int a = 0; a < 3; ++a) axes_[a].push_back(d[a]);
-  support_.assign(directions_.size(), 0);
+  const std::vector<Double3> directions = view_sphere(k_hull_subdivisions).directions;
   width_ = points.empty() ? -1 : 0;
-  std::vector<std::uint8_t> done(directions_.size(), 0);
-  for (std::size_t d = 0; d < directions_.size(); ++d) {
-    if (done[d]) continue;
-    const auto opposite = std::find_if(directions_.begin(), directions_.end(),
-                                       [&](const Double3& e) { return dot(e, directions_[d]) < -1 + 1e-9; });
+  std::array<double, k_axes> highest{}, lowest{};
+  std::size_t axis = 0;
+  for (const Double3& d : directions) {
+    if (!ahead(d) || axis == k_axes) continue;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Double3& p : points) {
-      const double along = dot(p, directions_[d]);
+      const double along = dot(p, d);
       low = std::min(low, along), high = std::max(high, along);
     }
-    const auto e = static_cast<std::size_t>(opposite - directions_.begin());
-    support_[d] = high, support_[e] = -low, done[e] = 1;
+    for (int a = 0; a < 3; ++a) axes_[a][axis] = static_cast<float>(d[a]);
+    highest[axis] = high, lowest[axis] = low, ++axis;
     width_ = std::max(width_, high - low);
   }
+  if (points.empty()) return;
+  const double scale = per_width();
+  for (std::size_t k = 0; k < k_axes; ++k)
+    highest_[k] = static_cast<float>(highest[k] * scale), lowest_[k] = static_cast<float>(lowest[k] * scale);
 }
 
-// How far the points reach along each direction beyond the foliage.
+double CrownField::per_width() const {
+  return width_ > 0 ? 1 / width_ : 1;
+}
+
 void CrownField::reach_of(std::span<const Double3> points, Reach& reach) const {
-  reach.fill(-std::numeric_limits<double>::infinity());
+  reach.along.fill(-std::numeric_limits<float>::infinity());
+  reach.against.fill(-std::numeric_limits<float>::infinity());
+  const double scale = per_width();
   for (const Double3& p : points) {
-    const Double3 q = p - low_;
-    for (std::size_t d = 0; d < k_directions; ++d) {
-      const double along = q.x * axes_[0][d] + q.y * axes_[1][d] + q.z * axes_[2][d] - support_[d];
-      reach[d] = along > reach[d] ? along : reach[d];
+    const Float3 q = to_float((p - low_) * scale);
+    for (std::size_t d = 0; d < k_axes; ++d) {
+      const float at = q.x * axes_[0][d] + q.y * axes_[1][d] + q.z * axes_[2][d];
+      const float over = at - highest_[d], under = lowest_[d] - at;
+      reach.along[d] = over > reach.along[d] ? over : reach.along[d];
+      reach.against[d] = under > reach.against[d] ? under : reach.against[d];
     }
   }
+  find_most(reach);
+}
+
+void CrownField::find_most(Reach& reach) {
+  float most = -std::numeric_limits<float>::infinity();
+  for (std::size_t d = 0; d < k_axes; ++d) {
+    const float either = reach.along[d] > reach.against[d] ? reach.along[d] : reach.against[d];
+    most = either > most ? either : most;
+  }
+  reach.most = most, reach.axis = 0;
+  while (reach.axis + 1 < k_axes && reach.along[reach.axis] != most && reach.against[reach.axis] != most)
+    ++reach.axis;
+  reach.sign = reach.along[reach.axis] == most ? 1.0f : -1.0f;
 }
 
 Double3 CrownField::way_back(std::span<const Double3> points, double margin) const {
@@ -237,13 +264,17 @@ Double3 CrownField::way_back(std::span<const Double3> points, double margin) con
   Reach reach;
   reach_of(points, reach);
   for (int round = 0; round < k_rounds; ++round) {
-    const auto most = std::max_element(reach.begin(), reach.end());
-    const double worst = *most - margin;
+    const double worst = reach.most * width_ - margin;
     if (!(worst > 0)) break;
-    const Double3 back = directions_[most - reach.begin()] * worst;
+    const Double3 axis{axes_[0][reach.axis], axes_[1][reach.axis], axes_[2][reach.axis]};
+    const Double3 back = axis * (reach.sign * worst);
     moved -= back;
-    for (std::size_t d = 0; d < k_directions; ++d)
-      reach[d] -= back.x * axes_[0][d] + back.y * axes_[1][d] + back.z * axes_[2][d];
+    const Float3 b = to_float(back * per_width());
+    for (std::size_t d = 0; d < k_axes; ++d) {
+      const float by = b.x * axes_[0][d] + b.y * axes_[1][d] + b.z * axes_[2][d];
+      reach.along[d] -= by, reach.against[d] += by;
+    }
+    find_most(reach);
   }
   return moved;
 }
@@ -252,7 +283,7 @@ double CrownField::excess(std::span<const Double3> points) const {
   if (!(width_ >= 0)) return 0;
   Reach reach;
   reach_of(points, reach);
-  return std::max(0.0, *std::max_element(reach.begin(), reach.end()));
+  return std::max(0.0, double(reach.most) / per_width());
 }
 
 bool CrownField::surrounded(const Double3& p) const {

@@ -44,7 +44,7 @@ class CrownField {
   // is out of the foliage's hull.
   bool surrounded(const Double3& p) const;
   // The shortest move, found direction by direction, that brings the points back to within `margin` of the
-  // foliage's convex hull, as far as 162 directions know it. Zero when they are there.
+  // foliage's convex hull, as far as 642 directions know it. Zero when they are there.
   Double3 way_back(std::span<const Double3> points, double margin) const;
   // How far the points reach out of that hull, metres; 0 inside.
   double excess(std::span<const Double3> points) const;
@@ -66,9 +66,18 @@ class CrownField {
   void measure_distances();
   void measure_cross_section();
   void find_outer_cells();
-  static constexpr std::size_t k_directions = 162;
-  using Reach = std::array<double, k_directions>;
+  // A hull is known along 642 directions: two along each of these.
+  static constexpr std::size_t k_axes = 321;
+  // How far out the farthest of some points are beyond the hull, in widths: along an axis, and against it.
+  struct Reach {
+    std::array<float, k_axes> along, against;
+    float most = 0;
+    std::size_t axis = 0;
+    float sign = 1;  // of the direction of the most
+  };
   void reach_of(std::span<const Double3> points, Reach& reach) const;
+  static void find_most(Reach& reach);
+  double per_width() const;  // 1 where it has none
   void measure_hull(std::span<const FoliageTriangle> triangles);
 
   Double3 low_{};
@@ -79,9 +88,8 @@ class CrownField {
   std::vector<std::uint8_t> full_, outer_;
   std::vector<float> exposure_;
   std::vector<Place> places_;
-  std::vector<Double3> directions_;
-  std::array<std::vector<double>, 3> axes_;  // their coordinates
-  std::vector<double> support_;              // of the foliage along each direction
+  std::array<std::array<float, k_axes>, 3> axes_{};  // coordinates
+  std::array<float, k_axes> highest_{}, lowest_{};   // of the foliage along each axis, widths from low_
 };
 
 }  // namespace copse

@@ -35,7 +35,7 @@ constexpr double k_too_much = 1.08;                 // coverage at which closed 
 constexpr int k_check_views = 2;                    // seen from so many sides
 constexpr std::uint64_t k_check_turn = 1u << 20;
 constexpr double k_doubt = 8;       // pixels that the field's word counts before any picture is drawn
-constexpr double k_margin = 0.008;  // of the crown's width, out of its hull
+constexpr double k_margin = 0.022;  // of the crown's width, out of its hull
 
 // What a quality spends.
 struct Effort {

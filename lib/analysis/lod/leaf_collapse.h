@@ -23,12 +23,12 @@ enum class CollapseQuality : std::uint8_t { fast, balanced, exact };
 
 struct LeafCollapseOptions {
   CollapseQuality quality = CollapseQuality::balanced;
-  int cells = 0;          // of the crown's grid along its longest side; 0: as many as the leaves call for
-  double largest = 0.36;  // of a leaf's area, as a share of the crown's cross-section: what fits inside
-  double emptiness = 2;   // how much reaching into empty space counts beside moving
-  int window = 8;         // neighbours looked at on each side
-  double other = 0.04;    // what a pixel counts that shows another leaf, beside one that is lost or gained
-  bool errors = true;     // are measured; not: for who measures them later, of the steps in another order
+  int cells = 0;         // of the crown's grid along its longest side; 0: as many as the leaves call for
+  double largest = 0.6;  // of a leaf's area, as a share of the crown's cross-section: what fits inside
+  double emptiness = 2;  // how much reaching into empty space counts beside moving
+  int window = 8;        // neighbours looked at on each side
+  double other = 0.04;   // what a pixel counts that shows another leaf, beside one that is lost or gained
+  bool errors = true;    // are measured; not: for who measures them later, of the steps in another order
 };
 
 // Which of the leaves lost edges before they were merged (leaf_surfaces.h), and what went before.
