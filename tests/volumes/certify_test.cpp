@@ -60,14 +60,14 @@ TEST(Certify, AgreesWithRationalArithmeticOnPointsNextToTheSurface) {
   Random random(1);
   const auto number = [&] { return static_cast<double>(static_cast<float>(random.around(0, 3))); };
   const auto vector = [&] { return Double3{number(), number(), number()}; };
-  std::size_t exact = 0, outside = 0;
+  std::size_t near = 0, outside = 0;
   for (int i = 0; i < 3000; ++i) {
     const Double3 a = vector(), b = vector(), p = vector();
     const double r = distance(a, p) * (i % 3 == 0 ? 1 : 1 + random.around(0, 3e-16));
     const Certificate c = certify(Volume<double>(BoundingSphere<double>{a, r}), std::span(&p, 1));
     const auto d = minus(p, a);
     ASSERT_EQ(c.holds(), dot_of(d, d) <= Q(r) * Q(r)) << i;
-    exact += c.exact, outside += c.outside;
+    near += c.near, outside += c.outside;
 
     // A cylinder whose radius is the distance of p from its axis, but for rounding.
     const Double3 axis = b - a;
@@ -85,9 +85,25 @@ TEST(Certify, AgreesWithRationalArithmeticOnPointsNextToTheSurface) {
     }();
     ASSERT_EQ(inside(Capsule<double>{a, b, radius}, p), in_capsule) << i;
   }
-  EXPECT_GT(exact, 300u);  // the test is no test unless doubles were not enough, and both answers came
+  EXPECT_GT(near, 300u);  // the test is no test unless doubles were not enough, and both answers came
   EXPECT_GT(outside, 300u);
   EXPECT_LT(outside, 2700u);
+}
+
+// A roof, a slope, a card: every point lies on two faces of its box.
+TEST(Certify, PointsOnFacesOfFloat32NumbersNeedNoRationals) {
+  Points roof;
+  for (int i = 0; i < 30; ++i) {
+    for (int j = 0; j < 30; ++j) roof.push_back({double(i), double(i) + j, double(j)});
+  }
+  const float s = std::sqrt(1.f / 3), t = std::sqrt(1.f / 2), u = std::sqrt(1.f / 6);
+  OrientedBox<double> box{{14.5, 29, 14.5}, {{{s, -s, s}, {t, 0, -t}, {u, 2 * u, u}}}, {0, 60, 60}};
+  const Certificate flat = certify(Volume<double>(box), roof);
+  EXPECT_TRUE(flat.holds());
+  EXPECT_GE(flat.near, roof.size() / 2);
+  EXPECT_EQ(flat.exact, 0u);
+  roof.push_back({3, 7 + 0x1p-50, 4});
+  EXPECT_EQ(certify(Volume<double>(box), roof).outside, 1u);
 }
 
 TEST(Certify, NamesTheWorstPoint) {

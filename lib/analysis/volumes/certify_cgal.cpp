@@ -1,4 +1,5 @@
 #include "lib/analysis/volumes/certify.h"
+#include "lib/analysis/volumes/double_double.h"
 
 #include <algorithm>
 #include <array>
@@ -49,6 +50,13 @@ Bounded operator/(const Bounded& a, const Bounded& b) {
 Bounded clamped(const Bounded& a) {
   return {std::clamp(a.value, 0.0, 1.0), a.error};
 }
+// What is certainly beyond an end is that end, without an error.
+DoubleDouble clamped(const DoubleDouble& a) {
+  const CertainSign above_0 = sign_of(a), above_1 = sign_of(a - DoubleDouble{1});
+  if (above_0.is_certain && above_0.sign <= 0) return {0};
+  if (above_1.is_certain && above_1.sign >= 0) return {1};
+  return a;
+}
 Exact clamped(const Exact& a) {
   return a < 0 ? Exact(0) : a > 1 ? Exact(1) : a;
 }
@@ -60,6 +68,10 @@ Side at_most(const Bounded& a, const Bounded& b) {
   const Bounded d = a - b;
   if (d.value + d.error <= 0) return Side::inside;
   return d.value - d.error > 0 ? Side::outside : Side::unsure;
+}
+Side at_most(const DoubleDouble& a, const DoubleDouble& b) {
+  const CertainSign s = sign_of(a - b);
+  return !s.is_certain ? Side::unsure : s.sign <= 0 ? Side::inside : Side::outside;
 }
 Side at_most(const Exact& a, const Exact& b) {
   return a <= b ? Side::inside : Side::outside;
@@ -75,7 +87,7 @@ Side both(Side a, Side b) {
 
 template <class N>
 N number(double v) {
-  if constexpr (std::is_same_v<N, Bounded>) {
+  if constexpr (std::is_same_v<N, Bounded> || std::is_same_v<N, DoubleDouble>) {
     return {v, 0};
   } else {
     return N(v);
@@ -334,6 +346,10 @@ Certificate certify_one(const V& v, std::span<const Double3> points) {
   double most = -1;
   for (std::size_t i = 0; i < points.size(); ++i) {
     Side s = side<Bounded>(v, points[i]);
+    if (s == Side::unsure) {
+      ++c.near;
+      s = side<DoubleDouble>(v, points[i]);
+    }
     if (s == Side::unsure) {
       ++c.exact;
       s = side<Exact>(v, points[i]);
