@@ -95,6 +95,21 @@ int wrong_in_square(const Image& image, int size) {
   return wrong_pixels(image, [&](int x, int y) { return inside(x) && inside(y) ? k_red : k_black; });
 }
 
+// Digest 000, 4.9: blades of grass have the normal of their ground, and are lit alike from either side.
+TEST(Treeplay, ACardWithTheNormalOfItsGroundIsLitAlikeFromBothSides) {
+  const Studio studio(
+      "mtllib square.mtl\nusemtl red\nvn 0 1 0\nv -1 -1 0.35\nv 1 -1 0.35\nv 1 1 -0.35\nv -1 1 -0.35\n"
+      "f 1//1 2//1 3//1 4//1\n");
+  const auto red = [&](const char* camera) {
+    return at(studio.drawn({"--frames", studio.picture, "--size", "64x64", "--background", "black",
+                            "--no-ground", "--sun", "0,90", "--camera", camera}),
+              32, 32)[0];
+  };
+  const int front = red("0,0,4,0,0,0,53"), back = red("0,0,-4,0,0,0,53");
+  EXPECT_GT(front, 150);
+  EXPECT_NEAR(front, back, 12);
+}
+
 TEST(Treeplay, ARedSquareCoversExactlyItsPixels) {
   const Studio studio;
   for (const char* samples : {"1", "4", "16"}) {

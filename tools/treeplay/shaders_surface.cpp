@@ -76,11 +76,12 @@ vec3 soil(vec3 albedo) {
 
 vec3 shade(vec3 albedo) {
   vec3 view = -normalize(v_local + offset);
-  // The side that is seen decides where the normal points, whatever the winding.
+  // The side that is seen decides where the normal points, whatever the winding; but not of one that lies across
+  // its face, as of grass, which is lit as its ground is (digest 000, 4.9).
   vec3 face = cross(dFdx(v_local), dFdy(v_local));
   if (dot(face, view) < 0.0) face = -face;
   vec3 n = normalize(v_normal);
-  if (dot(n, face) < 0.0) n = -n;
+  if (dot(n, normalize(face)) < -0.7) n = -n;
   float sun;
   vec3 c = light_on(albedo, v_local, view, n, thin, sun);
   float facing = dot(n, sun_direction);
