@@ -1,6 +1,7 @@
 // bvfit: what methods are shown, what is told of flat and left-over things, what --verify finds in sizes.
 #include "tests/tools/process.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -85,6 +86,18 @@ TEST_F(BvfitChoices, VerticesInNoFaceThatReachFartherAreToldOf) {
   const Outcome o = run({save("stray.obj", quad + "v 500 0 0\n" + face)});
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_NE(o.err.find("1 of 5 vertices are in no face"), std::string::npos) << o.err;
+}
+
+TEST_F(BvfitChoices, AmongManyPartsFlatOnesAreInNoSum) {
+  std::string cards;
+  for (int i = 0; i < 9; ++i) {  // the last three are bent
+    cards += fmt::format("o card{}\nv {} 0 0\nv {} 0 0\nv {} 1 {}\nv {} 1 0\nf -4 -3 -2 -1\n", i, 3 * i,
+                         3 * i + 1, 3 * i + 1, i < 6 ? 0.0 : 0.5, 3 * i);
+  }
+  const Outcome o = run({save("cards.obj", cards), "--per", "parts", "--quality", "fast"});
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.out.find("flat, in no sum"), std::string::npos) << o.out;
+  EXPECT_EQ(o.out.find("-100 %"), std::string::npos) << o.out;
 }
 
 TEST_F(BvfitChoices, MinusZeroIsZero) {

@@ -73,10 +73,13 @@ std::string summary_text(std::span<const SetFit> sets) {
     double volume = 0;
   };
   std::array<Sum, k_volume_kinds> sums{};
-  std::size_t volumes = 0, certified = 0;
+  std::size_t volumes = 0, certified = 0, thick = 0;
   double best = 0;
   for (const SetFit& set : sets) {
-    best += set.volumes[set.chosen].measures.volume;
+    // What is flat has no volume: the cheapest test is chosen, and whose rounding is least means nothing.
+    const bool flat = is_flat(set.volumes[set.chosen].measures, set.size);
+    thick += !flat;
+    if (!flat) best += set.volumes[set.chosen].measures.volume;
     ++sums[static_cast<std::size_t>(set.volumes[set.chosen].method.kind)].chosen;
     std::array<double, k_volume_kinds> least;
     least.fill(-1);
@@ -86,14 +89,15 @@ std::string summary_text(std::span<const SetFit> sets) {
       ++volumes, certified += v.certified;
     }
     for (std::size_t k = 0; k < sums.size(); ++k) {
-      if (least[k] >= 0) ++sums[k].fitted, sums[k].volume += least[k];
+      if (least[k] >= 0 && !flat) ++sums[k].fitted, sums[k].volume += least[k];
     }
   }
-  std::string out =
-      fmt::format("{} more sets, {} volumes, {} of them certified\n\n    {:<10} {:>9} {:>14} {:>12}\n",
-                  sets.size(), volumes, certified, "type", "chosen", "sum of volume", "over chosen");
+  std::string out = fmt::format(
+      "{} more sets{}, {} volumes, {} of them certified\n\n    {:<10} {:>9} {:>14} {:>12}\n", sets.size(),
+      thick < sets.size() ? fmt::format(" ({} flat, in no sum)", sets.size() - thick) : "", volumes,
+      certified, "type", "chosen", "sum of volume", "over chosen");
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    if (sums[k].fitted != sets.size()) continue;
+    if (sums[k].fitted != thick || (thick == 0 && sums[k].chosen == 0)) continue;
     out += fmt::format("    {:<10} {:>9} {:>14.6g} {:>11.3g} %\n", k_volume_names[k], sums[k].chosen,
                        sums[k].volume, best > 0 ? 100 * (sums[k].volume / best - 1) : 0.0);
   }
