@@ -163,7 +163,9 @@ class Quickhull {
   void open_made() {
     for (const std::uint32_t f : made_) {
       const Face& face = faces_[f];
-      if (face.above != k_none) open_.push({face.height / face.plane.length(), f, face.made});
+      if (face.above == k_none) continue;
+      const double size = face.plane.length();
+      open_.push({size > 0 ? face.height / size : 0, f, face.made});
     }
   }
 
