@@ -38,7 +38,7 @@ struct DiscsApart {
 
 struct ApartCounts {
   std::uint64_t missing = 0;   // found no room
-  std::uint64_t hindered = 0;  // where they would have stood, had there been room
+  std::uint64_t hindered = 0;  // found the place taken where they would have stood
 };
 
 // Where disc number `disc` would stand if there were room for all.
