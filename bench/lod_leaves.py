@@ -54,7 +54,7 @@ def print_tables(trees):
         print("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|")
         for name, rows in trees.items():
             o, p = rows["collapse", ratio], rows["meshopt", ratio]
-            times = f"{float(p['rmse']) / float(o['rmse']):.2f}" if reached(o, p) and float(o["rmse"]) > 0 else "stuck"
+            times = "stuck" if not reached(o, p) else f"{float(p['rmse']) / float(o['rmse']):.2f}" if float(o["rmse"]) > 0 else "-"
             print(f"| {name} | {o['tris']} | {o['area']} | {o['fits']} | {o['cover']} | {o['range']} | {o['iou']} | {o['rmse']} | {o['hull']} "
                   f"| {p['tris']} | {p['cover']} | {p['rmse']} | {times} |")
 
