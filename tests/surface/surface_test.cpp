@@ -116,5 +116,37 @@ TEST(BorderLoop, EndsOnAnySurface) {
   }
 }
 
+TEST(Surface, ASecondLayerThatCutsQuadsByTheOtherDiagonalIsLeftOut) {
+  // An open tube of four by six quads, each there once more, cut the other way.
+  TrunkMesh mesh;
+  for (std::uint32_t y = 0; y < 7; ++y) {
+    for (std::uint32_t i = 0; i < 4; ++i)
+      mesh.positions.push_back({i % 3 == 0 ? 1.0 : -1.0, 1.0 * y, i < 2 ? 1.0 : -1.0});
+  }
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t y = 0; y < 6; ++y) {
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t a = 4 * y + i, b = 4 * y + (i + 1) % 4, c = b + 4, d = a + 4;
+      for (const Triangle& t : {Triangle{a, b, c}, {a, c, d}, {d, c, b}, {d, b, a}}) {
+        all.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+        mesh.triangles.push_back(t);
+      }
+    }
+  }
+  const Surface s = make_surface(mesh, all);
+  EXPECT_EQ(s.triangles.size(), 48u);
+  EXPECT_EQ(s.non_manifold_edges, 0u);
+  EXPECT_EQ(s.border_edges, 8u);
+  for (std::uint32_t t = 0; t < all.size(); ++t) EXPECT_EQ(s.triangle_of[t] / 2, t / 4) << t;
+}
+
+TEST(Surface, ASolidOfFourFacesStaysOneAlsoBesideAnother) {
+  TrunkMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {0, 0, -1}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 1}, {0, 1, 5}, {0, 5, 4}, {1, 4, 5}};
+  const Surface s = make_surface(mesh, std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7});
+  EXPECT_EQ(s.triangles.size(), 8u);
+}
+
 }  // namespace
 }  // namespace copse

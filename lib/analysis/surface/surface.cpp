@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace copse {
 
@@ -62,10 +63,13 @@ std::vector<std::uint32_t> first_of_same(const std::vector<Triangle>& triangles,
 
 class EdgePairing {
  public:
-  EdgePairing(Surface& surface, std::vector<std::uint32_t> piece)
-      : surface_(surface), piece_(std::move(piece)) {}
+  EdgePairing(Surface& surface, std::span<const std::uint32_t> piece) : surface_(surface), piece_(piece) {}
+
+  // Whether more than two triangles meet at an edge (three times the triangle and the edge of it).
+  bool is_crowded(std::uint32_t half) const { return std::ranges::binary_search(crowded_, half); }
 
   void pair_all() {
+    surface_.non_manifold_edges = surface_.border_edges = 0;
     surface_.across.assign(surface_.triangles.size(), Triangle{k_none, k_none, k_none});
     bucket_edges();
     for (std::size_t v = 0; v + 1 < begin_.size(); ++v) {
@@ -78,6 +82,7 @@ class EdgePairing {
         i = j;
       }
     }
+    std::ranges::sort(crowded_);
   }
 
  private:
@@ -113,6 +118,7 @@ class EdgePairing {
     if (uses.size() == 2) join(uses[0], uses[1]);
     if (uses.size() > 2) {
       ++surface_.non_manifold_edges;
+      for (const EdgeUse& use : uses) crowded_.push_back(use.half);
       if (!pair_by_piece(uses)) pair_by_matter(low, uses);
     }
   }
@@ -158,10 +164,73 @@ class EdgePairing {
   }
 
   Surface& surface_;
-  std::vector<std::uint32_t> piece_;
-  std::vector<std::uint32_t> begin_;
+  std::span<const std::uint32_t> piece_;
+  std::vector<std::uint32_t> begin_, crowded_;
   std::vector<EdgeUse> uses_;
 };
+
+// Two triangles that share an edge, by the four corners of both, ascending.
+struct Pair {
+  std::array<std::uint32_t, 4> corners;
+  std::uint32_t t, u;
+  auto operator<=>(const Pair&) const = default;
+};
+
+// Four points are a quad and no solid: six volumes over the cube of the longest side.
+bool is_flat(const std::vector<Double3>& positions, const std::array<std::uint32_t, 4>& corners) {
+  constexpr double k_flat = 0.2;
+  const Double3 a = positions[corners[0]];
+  const Double3 u = positions[corners[1]] - a, v = positions[corners[2]] - a, w = positions[corners[3]] - a;
+  const double longest = std::max({length(u), length(v), length(w)});
+  return longest > 0 && std::abs(dot(cross(u / longest, v / longest), w / longest)) <= k_flat;
+}
+
+// Whether two triangles on an edge lie to both sides of it, as the halves of a quad do.
+bool are_opposite(const std::vector<Double3>& positions, std::uint32_t a, std::uint32_t b,
+                  const std::array<std::uint32_t, 2>& tips) {
+  const Double3 along = normalized(positions[b] - positions[a]);
+  const auto away = [&](std::uint32_t tip) {
+    const Double3 d = normalized(positions[tip] - positions[a]);
+    return d - along * dot(d, along);
+  };
+  return dot(away(tips[0]), away(tips[1])) < 0;
+}
+
+// For each triangle the one that stands for it: itself but where a surface is laid double and the second
+// layer cuts a quad by the other diagonal, as exporters do that cut each face from its first corner. Empty
+// where there are none.
+std::vector<std::uint32_t> without_second_diagonals(const Surface& s, const EdgePairing& edges) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+    for (std::uint32_t e = 0; e < 3; ++e) {
+      const std::uint32_t u = s.across[t][e];
+      if (u == k_none || u < t || edges.is_crowded(3 * t + e)) continue;
+      const bool beside = edges.is_crowded(3 * t + (e + 1) % 3) || edges.is_crowded(3 * t + (e + 2) % 3);
+      if (!beside) continue;
+      const std::uint32_t a = s.triangles[t][e], b = s.triangles[t][(e + 1) % 3];
+      const std::array tips{third_corner(s.triangles[t], a, b), third_corner(s.triangles[u], a, b)};
+      if (!are_opposite(s.positions, a, b, tips)) continue;
+      Pair pair{{a, b, tips[0], tips[1]}, t, u};
+      std::ranges::sort(pair.corners);
+      if (is_flat(s.positions, pair.corners)) pairs.push_back(pair);
+    }
+  }
+  std::ranges::sort(pairs);
+  std::vector<std::uint32_t> stands_for;
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    const Pair &first = pairs[i - 1], &second = pairs[i];
+    if (first.corners != second.corners) continue;
+    if (second.t == first.t || second.t == first.u || second.u == first.u)
+      continue;  // three faces round a point
+    if (stands_for.empty()) {
+      stands_for.resize(s.triangles.size());
+      std::iota(stands_for.begin(), stands_for.end(), 0u);
+    }
+    if (stands_for[first.t] != first.t || stands_for[first.u] != first.u) continue;
+    stands_for[second.t] = first.t, stands_for[second.u] = first.u;
+  }
+  return stands_for;
+}
 
 // The triangles with compact numbers of vertices; `used` receives the vertices in ascending order.
 std::vector<Triangle> number_vertices(const TrunkMesh& whole, std::span<const std::uint32_t> triangles,
@@ -201,6 +270,19 @@ std::vector<Triangle> number_vertices(const TrunkMesh& whole, std::span<const st
   return local;
 }
 
+// Leaves out the triangles that others stand for.
+void keep_standing(Surface& s, std::vector<std::uint32_t>& piece, std::span<const std::uint32_t> stands_for) {
+  std::vector<std::uint32_t> number(stands_for.size(), k_none);
+  std::uint32_t kept = 0;
+  for (std::uint32_t t = 0; t < stands_for.size(); ++t) {
+    if (stands_for[t] != t) continue;
+    s.triangles[kept] = s.triangles[t], s.order[kept] = s.order[t], piece[kept] = piece[t];
+    number[t] = kept++;
+  }
+  s.triangles.resize(kept), s.order.resize(kept), piece.resize(kept);
+  for (std::uint32_t& t : s.triangle_of) t = number[stands_for[t]];
+}
+
 }  // namespace
 
 Surface make_surface(const TrunkMesh& whole, std::span<const std::uint32_t> triangles) {
@@ -226,7 +308,13 @@ Surface make_surface(const TrunkMesh& whole, std::span<const std::uint32_t> tria
     piece.push_back(whole.piece.empty() ? 0 : whole.piece[triangles[i]]);
   }
   s.triangles.resize(kept);
-  EdgePairing(s, std::move(piece)).pair_all();
+  EdgePairing edges(s, piece);
+  edges.pair_all();
+  if (s.non_manifold_edges == 0) return s;
+  if (const auto stands_for = without_second_diagonals(s, edges); !stands_for.empty()) {
+    keep_standing(s, piece, stands_for);
+    EdgePairing(s, piece).pair_all();
+  }
   return s;
 }
 

@@ -12,7 +12,8 @@
 namespace copse {
 
 // A piece of a TrunkMesh with its own compact vertex numbers (ascending in those of the whole). Coincident
-// triangles (same three vertices) are kept once.
+// triangles (same three vertices) are kept once, and so are quads of a surface that is laid double, cut by
+// one diagonal and by the other.
 struct Surface {
   std::vector<Double3> positions;
   std::vector<Triangle> triangles;
