@@ -156,6 +156,24 @@ TEST(TreePack, AFileThatIsPackedReadsLikeAnyOther) {
   EXPECT_LT(bytes.size(), encode_tree(tree)->size());
 }
 
+TEST(TreePack, WhatStaysBesideItIsCompressedAndReadsTheSame) {
+  const Tree tree = make_tree({.radii = 30, .leaves = 25, .groups = 5}, 3);
+  const auto file = Container::from_bytes(*encode_tree(tree), "plain");
+  ContainerWriter writer(*file);
+  ASSERT_TRUE(compress_records(writer, *file));
+  ASSERT_TRUE(put_packed(writer, packed(tree)));
+  const auto plain = Container::from_bytes(packed_file(tree), "plain"),
+             small = Container::from_bytes(*writer.finish(), "small");
+  ASSERT_TRUE(small.has_value());
+  EXPECT_EQ(small->find("MATL")->encoding, Encoding::zstd);
+  EXPECT_LT(small->size(), plain->size());
+  for (const SectionInfo& s : plain->sections()) {
+    const SectionInfo* other = small->find(s.name);
+    ASSERT_NE(other, nullptr) << s.name;
+    EXPECT_EQ(plain->read(s)->to_vector(), small->read(*other)->to_vector()) << s.name;
+  }
+}
+
 TEST(TreePack, WhatWasLeftOutIsNotPacked) {
   const auto reduced = TreeFile::from_bytes(*encode_tree(make_tree({}, 1), {.omit = {"LORD"}}), "r");
   EXPECT_NE(why_unpackable(*reduced->load()), "");

@@ -58,6 +58,7 @@ Result<void> write_base(const Options& options, const TreeFile& file, const std:
     };
     tell("packing of the trunk, largest", packed->trunk_error);
     tell("packing of the leaves, largest", packed->leaf_error);
+    if (auto done = compress_records(writer, file.container()); !done) return done;
     return put_packed(writer, *packed);
   }
   if (options.coding.coding != SpectrumCoding::small) return {};

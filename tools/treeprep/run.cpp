@@ -80,6 +80,7 @@ Result<void> write_packed(const Options& options, const Tree& tree, const LeftOu
                                      {},
                                      "the tree before packing"});
   ContainerWriter writer(file->container());
+  if (auto done = compress_records(writer, file->container()); !done) return done;
   if (auto done = put_packed(writer, *packed); !done) return done;
   const auto bytes = writer.finish();
   if (!bytes) return std::unexpected(bytes.error());

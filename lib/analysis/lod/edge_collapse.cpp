@@ -476,18 +476,22 @@ class Collapser {
       if (x != y && x != q && y != q && folds(p, x, y, q)) return false;
     return gone < 2 || !makes_twice(p, q);
   }
+  // Whether every neighbour of p is the next one in one of its triangles.
+  bool closed(std::uint32_t p) const { return kinds_[p] == Kind::inner || kinds_[p] == Kind::seam; }
   std::uint32_t shared_neighbours(std::uint32_t p, std::uint32_t q) {
-    const std::uint32_t mark = ++mark_;
-    for (const Around& c : ring(q)) stamp_[c.next] = stamp_[c.previous] = mark;
-    const std::uint32_t seen = ++mark_;
+    const std::uint32_t mark = ++mark_, seen = ++mark_;
+    for (const Around& c : ring(q)) stamp_[c.next] = mark;
+    if (!closed(q))
+      for (const Around& c : ring(q)) stamp_[c.previous] = mark;
     std::uint32_t shared = 0;
-    for (const Around& c : ring(p)) {
-      for (const std::uint32_t z : {c.next, c.previous}) {
-        if (z == q || z == p || stamp_[z] == seen) continue;
-        shared += stamp_[z] == mark;
-        stamp_[z] = seen;
-      }
-    }
+    const auto count = [&](std::uint32_t z) {
+      if (z == q || z == p || stamp_[z] != mark) return;
+      ++shared;
+      stamp_[z] = seen;
+    };
+    for (const Around& c : ring(p)) count(c.next);
+    if (!closed(p))
+      for (const Around& c : ring(p)) count(c.previous);
     return shared;
   }
 

@@ -15,9 +15,14 @@ namespace {
 
 using namespace container_layout;
 
+// What is small is done at once at any level.
+constexpr std::size_t k_small = 16 << 10;
+constexpr int k_level_of_small = 19;
+
 Result<std::vector<std::uint8_t>> compress(std::span<const std::uint8_t> bytes) {
   std::vector<std::uint8_t> out(ZSTD_compressBound(bytes.size()));
-  const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), k_zstd_level);
+  const int level = bytes.size() <= k_small ? k_level_of_small : k_zstd_level;
+  const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), level);
   if (ZSTD_isError(size)) return fail(Fault::bug, "", ZSTD_getErrorName(size), "report this");
   out.resize(size);
   out.shrink_to_fit();

@@ -308,6 +308,17 @@ std::expected<Tree, std::string> unpack_tree(std::span<const std::uint8_t> bytes
   return tree;
 }
 
+Result<void> compress_records(ContainerWriter& writer, const Container& source) {
+  for (const char* name : {"PROV", "MATL", "MNAM", "TEXR", "TNAM"}) {
+    const SectionInfo* s = source.find(name);
+    if (!s || s->encoding != Encoding::raw) continue;
+    auto bytes = source.read(*s);
+    if (!bytes) return std::unexpected(bytes.error());
+    if (auto done = writer.put(name, s->version, s->stride, *bytes, Encoding::zstd); !done) return done;
+  }
+  return {};
+}
+
 Result<void> put_packed(ContainerWriter& writer, const PackedTree& packed) {
   const Head head = head_of(packed.tree);
   if (auto done = writer.put("HEAD", k_tree_section_version, 1, encode_head(head)); !done) return done;

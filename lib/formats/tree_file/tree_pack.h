@@ -53,6 +53,10 @@ Result<PackedTree> renumbered(const PackedTree& packed, std::span<const std::uin
 std::expected<Tree, std::string> unpack_tree(std::span<const std::uint8_t> bytes, const Head& head,
                                              const std::vector<Material>& materials);
 
+// Compresses what stays beside PACK, but for images: provenance, materials, textures and their names, as
+// `source`, which `writer` was made of, has them.
+Result<void> compress_records(ContainerWriter& writer, const Container& source);
+
 // Puts HEAD and PACK in place of all sections that PACK stands for.
 Result<void> put_packed(ContainerWriter& writer, const PackedTree& packed);
 
