@@ -146,8 +146,8 @@ double ClusterKernel::at(const GroundPlace& middle) const {
 }
 
 GroundPlace DensityField::point(std::uint32_t cell, double u, double v) const {
-  return {area.x0 + (cell % columns + u) / columns * area.width(),
-          area.z0 + (cell / columns + v) / rows * area.depth()};
+  const std::uint32_t column = cell % columns, row = cell / columns;
+  return {area.x0 + (column + u) / columns * area.width(), area.z0 + (row + v) / rows * area.depth()};
 }
 
 GroundPlace sample_in_cell(std::uint32_t i, std::uint32_t j, std::uint32_t samples) {

@@ -71,9 +71,10 @@ GroundPlace Spreader::search(std::uint32_t cell, const PlacementTest& test, Rand
   const GroundPlace sample = sample_in_cell(k % n, k / n, n);
   // Anywhere in the square that the sample stands for; then ever nearer to it.
   constexpr int k_anywhere = 16, k_nearer = 40;
+  const std::uint32_t column = k % n, row = k / n;
   double reach = 1;
   for (int i = 0; i < k_anywhere + k_nearer; ++i) {
-    const double u = (k % n + random.uniform()) / n, v = (k / n + random.uniform()) / n;
+    const double u = (column + random.uniform()) / n, v = (row + random.uniform()) / n;
     const GroundPlace place =
         field_.point(cell, sample.x + reach * (u - sample.x), sample.z + reach * (v - sample.z));
     if (test.weight(place.x, place.z) > 0) return place;
