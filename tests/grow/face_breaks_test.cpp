@@ -116,7 +116,8 @@ TEST(FaceBreaks, StrayVerticesAreNamedByNoFace) {
 TEST(NameBreaks, NamesAreMissingNeutralOrOne) {
   const Mesh named = small_tree("birch", "artist").mesh, none = small_tree("birch", "no-names").mesh,
              neutral = small_tree("birch", "neutral-names").mesh,
-             one = small_tree("birch", "one-material").mesh;
+             one = small_tree("birch", "one-material").mesh,
+             leafy = small_tree("birch", "leafy-name").mesh;
   ASSERT_EQ(named.materials.size(), 2u);
   EXPECT_EQ(named.materials[0].name, "bark_birch");
   EXPECT_EQ(named.materials[1].name, "leaf_birch");
@@ -127,6 +128,8 @@ TEST(NameBreaks, NamesAreMissingNeutralOrOne) {
   EXPECT_EQ(neutral.parts[0].object, "Object.001");
   ASSERT_EQ(one.materials.size(), 1u);
   for (const std::uint32_t part : one.part_of) EXPECT_EQ(one.parts[part], one.parts[0]);
+  ASSERT_EQ(leafy.materials.size(), 2u);
+  for (const Part& part : leafy.parts) EXPECT_EQ(part.object, "Leafy_birch");
 }
 
 TEST(NameBreaks, OneMaterialKeepsBarkInTheLeftHalfOfItsTexture) {

@@ -382,6 +382,36 @@ TEST(Classify, AMeshThatIsAllNamedLeavesMayStillHaveATrunk) {
   EXPECT_EQ(c.trunk_triangles, 128u);
 }
 
+TEST(Classify, ANameThatAllBearTakesNoBoughFromItsTrunk) {
+  Builder b;
+  b.part("LeafyOak");
+  b.tube(line({0, 0, 0}, {0, 6, 0}, 9), 0.2, 8);
+  for (int i = 0; i < 12; ++i) {
+    const Double3 foot{0, 2 + 0.3 * i, 0}, tip = foot + Double3{std::cos(i), 0.4, std::sin(i)};
+    b.tube(line(foot, tip, 5), 0.05, 6);
+    b.tube(line((foot + tip) / 2.0, tip + Double3{0, 0.4, 0}, 3), 0.02, 4);
+    b.card(tip, {0.1, 0, 0}, {0, 0.1, 0.02});
+  }
+  const Classification named = classified(b.mesh);
+  b.mesh.parts.back().object = "tree";
+  EXPECT_EQ(named.trunk_triangles, classified(b.mesh).trunk_triangles);
+  EXPECT_EQ(named.leaf_count, 12u);
+  EXPECT_EQ(
+      named.components[1].reason,
+      "object 'LeafyOak' says leafy, but it is a stem of 48 triangles: long for its thickness, one of 12 "
+      "alike");
+}
+
+TEST(Classify, ACrownAsSlenderAsAStemIsNoBoughWhereItsNameSaysLeaf) {
+  Builder b;
+  b.part("Foliage_Cypress");
+  b.tube(line({0, 0, 0}, {0, 2.4, 0}, 2), 0.15, 8);
+  b.ball({0, 5, 0}, 1, 3.2);
+  const Classification c = classified(b.mesh);
+  EXPECT_EQ(c.trunk_triangles, 16u);
+  EXPECT_EQ(c.leaf_count, 1u);
+}
+
 // Strips of three quads, `below` deep in the ground.
 Builder grass_block(double below) {
   Builder b;

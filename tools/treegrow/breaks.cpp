@@ -79,6 +79,8 @@ const std::vector<BreakInfo>& break_table() {
        ""},
       {one_material, "one-material", G::names,
        "one object and one material with one texture for bark and leaves", ""},
+      {leafy_name, "leafy-name", G::names,
+       "the one object is called by its leaves (Leafy_birch) and the materials say nothing", ""},
       {several_trees, "several-trees", G::none, "three trees in one mesh", "one root a stem"},
       {z_up, "z-up", G::none, "+Z is up", "in the mesh's frame, `up_axis` = z"},
       {centimetres, "centimetres", G::none, "units are centimetres", "in the mesh's units"},

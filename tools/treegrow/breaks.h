@@ -57,6 +57,7 @@ enum class Break : std::uint8_t {
   no_names,
   neutral_names,
   one_material,
+  leafy_name,
   // the scene
   several_trees,
   z_up,

@@ -36,6 +36,9 @@ Names names_of(const Order& order, bool leaf) {
     return {"Object" + number, "Material" + number};
   }
   if (order.species.grass.blades > 0) return {"grass", "grass"};
+  if (order.breaks.has(Break::leafy_name)) {
+    return {"Leafy_" + order.species.name, leaf ? "Material.002" : "Material.001"};
+  }
   const std::string& name = order.species.name;
   return leaf ? Names{name + "_leaves", "leaf_" + name} : Names{name + "_trunk", "bark_" + name};
 }

@@ -1,6 +1,7 @@
 #include "lib/analysis/leaves/piece_rules.h"
 
 #include "lib/analysis/leaves/end_to_end.h"
+#include "lib/analysis/leaves/stem_contacts.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,7 @@ enum class Finding : std::uint8_t {
   continued,     // trunk: a blob or sheet that a stem goes on from, end to end
   needle,        // leaf
   carried_stem,  // leaf: a slender crown
-  named_stem,    // leaf: in a mesh that is all named leaf, a stem that is not the trunk
+  named_stem,    // leaf: in a mesh that is all named leaf, a stem that hangs on no trunk
   blob,          // leaf
   named_blob,    // trunk
   brown_blob,    // trunk
@@ -97,6 +98,7 @@ class Rules {
     find_chains();
     find_caps();
     for (const PlacedPiece& placed : scan_.placed()) look_at_place(placed);
+    find_named_stems();
     find_continued();
     find_piles();
     find_stump();
@@ -166,14 +168,40 @@ class Rules {
     Finding& found = found_[p];
     if (v.kind != NameClass::leaf && is_ground(s) && s.kind != ShapeKind::stem) {
       found = Finding::ground;
-    } else if (found == Finding::stem && v.kind == NameClass::leaf && v.binding == Binding::whole) {
-      const bool trunk_like = stands_on_ground(s) && s.size >= k_trunk_size * height_;
-      if (!trunk_like) found = Finding::named_stem;
     } else if (found == Finding::stem && v.kind != NameClass::trunk && is_needle(p, s)) {
       found = Finding::needle;
     } else if (found == Finding::blob && any_green_ && material_of(p) && is_brown(*material_of(p))) {
       found = Finding::brown_blob;
     }
+  }
+  // In a mesh that is all named leaf the name says nothing of a trunk, nor of what hangs on one.
+  void find_named_stems() {
+    std::vector<std::uint32_t> stems, standing;
+    double thickest = 0;
+    for (std::uint32_t i = 0; i < scan_.placed().size(); ++i) {
+      const auto& [p, s] = scan_.placed()[i];
+      if (found_[p] != Finding::stem || !is_whole_leaf(p)) continue;
+      stems.push_back(i);
+      if (!stands_on_ground(s) || s.size < k_trunk_size * height_) continue;
+      standing.push_back(i);
+      thickest = std::max(thickest, thickness(s));
+    }
+    const std::vector<std::uint8_t> is_wood = stem_contacts(mesh_, scan_, stems, standing);
+    for (std::size_t i = 0; i < stems.size(); ++i) {
+      const auto& [p, s] = scan_.placed()[stems[i]];
+      if (is_bulky(s) && thickness(s) > thickest) {
+        found_[p] = Finding::carried_stem;
+      } else if (!is_wood[i]) {
+        found_[p] = Finding::named_stem;
+      }
+    }
+  }
+  static double thickness(const PieceShape& s) { return s.size > 0 ? s.area / s.size : 0; }
+  static bool is_bulky(const PieceShape& s) {
+    return s.elongation <= k_bulky_elongation && s.fill >= k_bulky_fill;
+  }
+  bool is_whole_leaf(std::uint32_t p) const {
+    return verdict(p).kind == NameClass::leaf && verdict(p).binding == Binding::whole;
   }
   // Thousands of equal spikes are needles, unless there are other leaves or they go on from one another: then
   // they are twigs.
@@ -293,8 +321,8 @@ class Rules {
     std::vector<const PlacedPiece*> pile;
     for (const PlacedPiece& placed : scan_.placed()) {
       const Finding f = found_[placed.piece];
-      const bool slender = f == Finding::stem && placed.shape.elongation <= k_bulky_elongation &&
-                           placed.shape.fill >= k_bulky_fill && verdict(placed.piece).kind == NameClass::none;
+      const bool slender =
+          f == Finding::stem && is_bulky(placed.shape) && verdict(placed.piece).kind == NameClass::none;
       if ((f == Finding::blob || slender) && scan_.alike(placed.piece) < k_piled) pile.push_back(&placed);
     }
     std::sort(pile.begin(), pile.end(), [](const PlacedPiece* a, const PlacedPiece* b) {
@@ -402,7 +430,7 @@ std::string describe(Finding f, const PieceFact& fact, std::size_t n) {
     case Finding::carried_stem:
       return counted("a slender crown", n) + " on a narrower trunk";
     case Finding::named_stem:
-      return counted("a stem", n) + " that does not stand on the ground";
+      return counted("a stem", n) + " that hangs on no trunk";
     case Finding::blob:
       return counted("a blob", n);
     case Finding::continued:
