@@ -1,5 +1,6 @@
 #include "tools/treeprep/input.h"
 
+#include "lib/analysis/leaves/stand_ins.h"
 #include "lib/analysis/surface/spatial_order.h"
 #include "lib/formats/import/import.h"
 #include "lib/formats/import/text.h"
@@ -123,6 +124,35 @@ Result<void> check_size(const Mesh& mesh, const std::string& name) {
   return {};
 }
 
+// "'UCX_oak', 'UCX_pine' and 3 more"
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t k_listed = 6;  // a warning is one line
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), k_listed); ++i)
+    text += (i == 0 ? "" : ", ") + in_quotes(names[i]);
+  return names.size() > k_listed ? fmt::format("{} and {} more", text, names.size() - k_listed) : text;
+}
+
+// Collision hulls and coarser levels that stand beside the tree itself. Ids of triangles are the file's
+// still.
+void leave_out_stand_ins(Input& input, const Options& options, Context& context) {
+  std::vector<std::string> patterns = options.trunk_patterns;
+  patterns.insert(patterns.end(), options.leaf_patterns.begin(), options.leaf_patterns.end());
+  std::vector<std::uint32_t> parts;
+  std::vector<std::string> names;
+  for (const StandIn& found : find_stand_ins(input.mesh, patterns)) {
+    parts.push_back(found.part);
+    if (std::ranges::find(names, found.name) == names.end()) names.push_back(found.name);
+  }
+  if (parts.empty()) return;
+  const std::size_t before = input.mesh.triangles.size();
+  input.file_order = remove_parts(input.mesh, parts);
+  context.warn(fmt::format(
+      "{}: {} of {} triangles are left out, as their names say collision hull or coarser level of detail: "
+      "{}; name them with --trunk or --leaf, such as --trunk {}, to keep them",
+      input.name, before - input.mesh.triangles.size(), before, listed(names), in_quotes(names.front())));
+}
+
 // `import` is to be put behind what `input` holds already.
 void note_undefined(const Import& import, const fs::path& path, Input& input, Context& context) {
   if (import.undefined_materials.empty()) return;
@@ -168,11 +198,18 @@ Result<Input> read_input(const Options& options, Context& context) {
 }
 
 Result<void> settle(Input& input, const Options& options, Context& context) {
+  if (!options.strict) leave_out_stand_ins(input, options, context);
   orient(input.mesh, options.up, options.scale);
   if (const auto ok = check_size(input.mesh, input.name); !ok) return ok;
   if (options.up == UpAxis::y) warn_if_z_up(input.mesh, input.name, context);
-  if (!options.strict)
-    input.file_order = order_by_place(input.mesh);  // strict messages go by the file's order
+  if (options.strict) return {};  // its messages go by the file's order
+  std::vector<std::uint32_t> moved_from = order_by_place(input.mesh);
+  if (input.file_order.empty()) {
+    input.file_order = std::move(moved_from);
+  } else if (!moved_from.empty()) {
+    for (std::uint32_t& t : moved_from) t = input.file_order[t];
+    input.file_order = std::move(moved_from);
+  }
   return {};
 }
 

@@ -16,7 +16,7 @@ struct Input {
   std::vector<std::uint32_t> undefined_materials;  // of the mesh's: named, but defined in no file; ascending
   Mesh mesh;                                       // oriented, scaled; at least one triangle
   // Where each triangle was in the file; empty where they are in its order. Those that lay scattered are
-  // brought together, but with --strict.
+  // brought together, and those of collision hulls and coarser levels left out, but with --strict.
   std::vector<std::uint32_t> file_order;
   std::string name;                 // for messages: the first file, "(+2 more)" where there are several
   std::string format;               // "obj", "glb", ...
@@ -30,8 +30,9 @@ inline constexpr double k_largest_extent = 1e18;
 // warned about; with --strict it is also listed in `faults`.
 Result<Input> read_input(const Options& options, Context& context);
 
-// The last step of read_input(): into copse's frame and, but with --strict, into spatial order. Refuses a
-// mesh without triangles and one that is too large.
+// The last step of read_input(): into copse's frame and, but with --strict, without what stands in for a tree
+// that is there besides (stand_ins.h) and in spatial order. Refuses a mesh without triangles and one that is
+// too large.
 Result<void> settle(Input& input, const Options& options, Context& context);
 
 // The distance in metres within which --weld makes positions one; negative: decided place by place.
