@@ -8,7 +8,7 @@ namespace copse {
 namespace {
 
 struct Attached {
-  explicit Attached(Limbs& limbs) : segments(limbs), ground(limbs, {}) {
+  explicit Attached(Limbs& limbs) : segments(limbs), ground(limbs, segments, {}) {
     bases = choose_bases(limbs, segments, ground);
     attachments = attach(limbs, segments, ground, bases);
   }

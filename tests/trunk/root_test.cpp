@@ -107,6 +107,20 @@ TEST(Root, ALogThatLiesBeginsAtItsThickEnd) {
   EXPECT_NEAR(recover(maker).radii[0].centre.x, 0, 1e-12);
 }
 
+TEST(Root, BranchesOfALogThatLiesAreNoRoots) {
+  for (const double y : {0.3, 5.0}) {
+    TubeMaker maker;
+    maker.add(trunk_of({0, y, 0}, {7, y, 0}, 0.3, 0.2));
+    for (int i = 0; i < 4; ++i) {
+      const double x = 1.2 + 1.4 * i;
+      maker.add(trunk_of({x, y, 0.04 * i}, {x + 0.2, y + 2, 0.3}, 0.08, 0.03));
+    }
+    const Hierarchy h = recover(maker);
+    EXPECT_EQ(roots(h), 1) << y;
+    EXPECT_NEAR(h.radii[0].centre.x, 0, 1e-12) << y;
+  }
+}
+
 // A rod that is much thinner than the flared base of what hangs from its middle.
 TEST(Root, AFlaredTwigIsHeldByTheMiddleOfAThinnerRod) {
   TubeMaker maker;

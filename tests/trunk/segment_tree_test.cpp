@@ -54,7 +54,7 @@ void expect_the_nearest_of_each_limb(const SegmentTree& tree) {
     tree.near(p, 0.5, 0.1, except, 5, found);
     std::vector<Nearness> all;
     const auto key = [](const Nearness& n) {
-      return std::pair(n.distance / std::max(n.radius, 0.1), n.segment);
+      return std::tuple(n.distance / std::max(n.radius, 0.1), -n.radius, n.segment);
     };
     for (std::uint32_t limb = 0; limb < 40; ++limb) {
       Nearness best;
@@ -112,6 +112,34 @@ TEST(SegmentTree, OfNothingFindsNothingAndManyInOnePlaceAreNoTrap) {
   const SegmentTree tree(std::move(heap));
   for (int query = 0; query < 100; ++query) tree.near({0, 0.5, 0}, 1, 1, 0xffffffffu, 16, found);
   ASSERT_EQ(found.size(), 16u);
+}
+
+// The head of a palm, a pom-pom: tubes that all begin where the trunk ends, as exactly as a file says it.
+TEST(SegmentTree, OfAxesThatBeginInOnePlaceItLooksAtTheThickestAndFindsTheTrunk) {
+  std::mt19937 random(3);
+  const auto draw = [&](double from, double to) { return from + (to - from) * random() / 4294967296.0; };
+  constexpr std::uint32_t k_tubes = 4000;
+  for (const double rounding : {0.0, 1e-7}) {
+    std::vector<Segment> segments;
+    for (std::uint32_t i = 0; i < k_tubes; ++i) {
+      const Double3 from{draw(0, rounding), 5 + draw(0, rounding), draw(0, rounding)};
+      const Double3 way = normalized({draw(-1, 1), draw(-1, 1), draw(-1, 1)}, {1, 0, 0});
+      const Double3 knee = from + way, tip = knee + way;
+      const double radius = 0.02 + draw(0, rounding);
+      segments.push_back({from, knee, radius, radius / 2, i});
+      segments.push_back({knee, tip, radius / 2, radius / 4, i});
+    }
+    segments.push_back({{0, 0, 0}, {0, 5, 0}, 0.2, 0.1, k_tubes});
+    const SegmentTree tree(segments);
+    std::size_t looked_at = 0;
+    std::vector<Nearness> found;
+    for (std::uint32_t i = 0; i < k_tubes; ++i) {
+      looked_at += tree.near(segments[2 * i].a, 0.04, 0.01, i, 16, found);
+      ASSERT_EQ(found.size(), 16u);
+      ASSERT_EQ(found.front().segment, 2 * k_tubes);
+    }
+    EXPECT_LT(looked_at, 400u * k_tubes) << rounding;
+  }
 }
 
 }  // namespace

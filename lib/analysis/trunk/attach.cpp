@@ -199,7 +199,10 @@ bool Attacher::stands_on_ground(std::uint32_t limb, std::span<const Candidate> c
     return rise > 0 && !ground_.is_below(farthest_[limb]) && std::ranges::none_of(candidates, droops);
   }
   if (ground_.is_floor(base)) return rise > 0;
-  const auto holds = [](const Candidate& c) { return c.offset <= k_ground_offset; };
+  const auto holds = [&](const Candidate& c) {
+    const bool in_log = c.gap < 0 && is_level(segments_.tree.segments()[c.segment]);
+    return in_log || c.offset <= k_ground_offset;
+  };
   return rise > reach_[limb] / 2 && limbs_.centre[base].y - lowest_ <= k_ground_level * radius_[limb] &&
          std::ranges::none_of(candidates, holds);
 }

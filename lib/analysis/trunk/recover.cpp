@@ -258,7 +258,7 @@ Hierarchy recover_hierarchy(const TrunkMesh& mesh, const RecoverOptions& options
   Limbs limbs = read_limbs(mesh, options);
   LimbSegments segments(limbs);
   if (limbs.size > 1) join(limbs, segments);
-  const Ground ground(limbs, mesh.positions);
+  const Ground ground(limbs, segments, mesh.positions);
   std::vector<std::uint32_t> bases = choose_bases(limbs, segments, ground);
   const std::vector<std::uint32_t> roots = name_roots(limbs, options.roots, bases);
   const std::vector<Attachment> attachments = attach(limbs, segments, ground, bases, roots);

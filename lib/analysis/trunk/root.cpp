@@ -31,6 +31,14 @@ class Contact {
     return std::numeric_limits<double>::infinity();
   }
 
+  // Whether an end lies in a limb that lies itself, and not at an end of that.
+  bool lies_in_log(std::uint32_t end) {
+    segments_.tree.near(limbs_.centre[end], 0, 0, limbs_.limb[end], k_candidates, found_);
+    return std::ranges::any_of(found_, [&](const Nearness& near) {
+      return is_level(segments_.tree.segments()[near.segment]) && near.gap() < 0 && !meets_end(near, end);
+    });
+  }
+
   // Whether something holds a limb by this end: what it lies in or against, or what it floats a little above.
   // It is not much thinner: a branch that begins at the top of a trunk does not hold the trunk. In its middle
   // it may be thinner, as it does not begin there.
@@ -65,7 +73,7 @@ class Contact {
 
 }  // namespace
 
-Ground::Ground(const Limbs& limbs, std::span<const Double3> positions)
+Ground::Ground(const Limbs& limbs, const LimbSegments& segments, std::span<const Double3> positions)
     : below_(limbs.rings(), 0), floor_(limbs.rings(), 0) {
   DoubleBox box;
   for (const std::uint32_t v : limbs.vertices) box.grow(positions[v]);
@@ -79,17 +87,20 @@ Ground::Ground(const Limbs& limbs, std::span<const Double3> positions)
     }
   }
   overhead_ = !box.empty() && box.max.y <= k_ground_depth * height && box.min.y < -k_ground_depth * height;
-  if (!any_below) find_floor(limbs, height);
+  if (!any_below) find_floor(limbs, segments, height);
 }
 
-void Ground::find_floor(const Limbs& limbs, double height) {
+void Ground::find_floor(const Limbs& limbs, const LimbSegments& segments, double height) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Double3& c : limbs.centre) lowest = std::min(lowest, c.y);
   std::vector<std::uint32_t> standing;
-  for (const std::uint32_t e : end_rings(limbs)) {
+  const std::vector<std::uint32_t> ends = end_rings(limbs);
+  for (const std::uint32_t e : ends) {
     const double level = std::min(k_same_level * height, k_ground_level * limbs.diameter[e] / 2);
     if (limbs.centre[e].y - lowest <= level) standing.push_back(e);
   }
+  Contact contact(limbs, segments, ends);
+  std::erase_if(standing, [&](std::uint32_t e) { return contact.lies_in_log(e); });
   const bool several = std::ranges::any_of(
       standing, [&](std::uint32_t e) { return limbs.limb[e] != limbs.limb[standing.front()]; });
   if (!several) return;

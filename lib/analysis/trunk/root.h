@@ -15,16 +15,17 @@ namespace copse {
 // it, not where the model was centred on the origin (tolerances.h: k_ground_depth).
 class Ground {
  public:
-  Ground(const Limbs& limbs, std::span<const Double3> positions);
+  Ground(const Limbs& limbs, const LimbSegments& segments, std::span<const Double3> positions);
   bool is_below(std::uint32_t ring) const { return below_[ring] != 0; }
   // Where nothing is below the ground: whether the ring lies on the lowest level of all, and so do ends of
-  // other limbs. What several limbs stand on is a floor.
+  // other limbs. What several limbs stand on is a floor; what begins inside another limb, as a branch of a
+  // fallen trunk does, stands on nothing.
   bool is_floor(std::uint32_t ring) const { return floor_[ring] != 0; }
   // Whether everything hangs down from y = 0.
   bool is_overhead() const { return overhead_; }
 
  private:
-  void find_floor(const Limbs& limbs, double height);
+  void find_floor(const Limbs& limbs, const LimbSegments& segments, double height);
 
   std::vector<std::uint8_t> below_;  // one a ring; all 0 where the rule means nothing
   std::vector<std::uint8_t> floor_;

@@ -1,8 +1,11 @@
 #include "lib/analysis/trunk/segment_tree.h"
 
+#include "lib/analysis/surface/tolerances.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace copse {
@@ -59,6 +62,11 @@ int longest_axis(const DoubleBox& box) {
 }
 
 }  // namespace
+
+bool is_level(const Segment& segment) {
+  const Double3 way = segment.b - segment.a;
+  return std::abs(way.y) < std::hypot(way.x, way.z);
+}
 
 Nearness nearness(std::span<const Segment> segments, std::uint32_t segment, const Double3& point) {
   const Segment& s = segments[segment];
@@ -126,11 +134,13 @@ void SegmentTree::build() {
     const auto id = static_cast<std::uint32_t>(nodes_.size());
     Node& node = nodes_.emplace_back();
     if (range.parent != id) nodes_[range.parent].first = id;
+    node.lowest = order_[range.begin] / pieces_;
     DoubleBox middles;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const Segment& s = segments_[order_[i] / pieces_];
       node.box.grow(box_of(order_[i]));
       node.radius = std::max({node.radius, s.radius_a, s.radius_b});
+      node.lowest = std::min(node.lowest, order_[i] / pieces_);
       middles.grow(middle_of(order_[i]));
     }
     if (range.end - range.begin <= k_leaf_size) {
@@ -146,18 +156,22 @@ void SegmentTree::build() {
     todo.push_back({middle, range.end, id});
     todo.push_back({range.begin, middle, id + 1});  // becomes node id + 1: the left child
   }
+  const double noise = k_rounding * length(nodes_[0].box.extent());
+  if (std::isfinite(noise)) noise_ = noise;
 }
 
-void SegmentTree::near(const Double3& point, double reach, double least_radius, std::uint32_t except,
-                       std::size_t count, std::vector<Nearness>& found) const {
+std::size_t SegmentTree::near(const Double3& point, double reach, double least_radius, std::uint32_t except,
+                              std::size_t count, std::vector<Nearness>& found) const {
   found.clear();
-  if (nodes_.empty() || count == 0) return;
+  if (nodes_.empty() || count == 0) return 0;
+  std::size_t looked_at = 0;
+  const auto beyond_noise = [&](double d) { return std::max(0.0, d - noise_); };
   const auto key = [&](const Nearness& n) {
-    const double radius = std::max(n.radius, least_radius);
-    return std::pair(radius > 0       ? n.distance / radius
-                     : n.distance > 0 ? std::numeric_limits<double>::infinity()
-                                      : 0.0,
-                     n.segment);
+    const double radius = std::max(n.radius, least_radius), d = beyond_noise(n.distance);
+    return std::tuple(radius > 0 ? d / radius
+                      : d > 0    ? std::numeric_limits<double>::infinity()
+                                 : 0.0,
+                      -n.radius, n.segment);
   };
   const auto insert = [&](const Nearness& n) {
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -170,10 +184,15 @@ void SegmentTree::near(const Double3& point, double reach, double least_radius, 
     found.insert(at, n);
     if (found.size() > count) found.pop_back();
   };
-  // Whether nothing as far from the point and with no larger radius can be among what is found.
-  const auto is_too_far = [&](double d, double radius) {
-    return d > radius + reach ||
-           (found.size() == count && d > key(found.back()).first * std::max(radius, least_radius));
+  // Whether nothing as far from the point, with no larger radius and no lower segment can be among what is
+  // found. Of axes that all begin in one place only the thickest are looked at.
+  const auto is_too_far = [&](double d, double radius, std::uint32_t lowest) {
+    if (d > radius + reach) return true;
+    if (found.size() < count) return false;
+    const auto& [ratio, thinness, segment] = key(found.back());
+    const double here = beyond_noise(d);
+    if (ratio > 0 || here > 0) return here > ratio * std::max(radius, least_radius);
+    return std::pair(-radius, lowest) >= std::pair(thinness, segment);
   };
   struct Step {
     std::uint32_t node;
@@ -186,10 +205,13 @@ void SegmentTree::near(const Double3& point, double reach, double least_radius, 
     const auto [id, d] = todo.back();
     todo.pop_back();
     const Node& node = nodes_[id];
-    if (is_too_far(d, node.radius)) continue;
-    if (node.count == 0) {  // the nearer child first: what it holds spares most of the other
+    if (is_too_far(d, node.radius, node.lowest)) continue;
+    if (node.count == 0) {  // the nearer or thicker child first: what it holds spares most of the other
       Step near = step_to(id + 1), far = step_to(node.first);
-      if (far.distance < near.distance) std::swap(near, far);
+      const auto rank = [&](const Step& s) {
+        return std::tuple(beyond_noise(s.distance), -nodes_[s.node].radius, nodes_[s.node].lowest);
+      };
+      if (rank(far) < rank(near)) std::swap(near, far);
       todo.push_back(far);
       todo.push_back(near);
       continue;
@@ -197,11 +219,14 @@ void SegmentTree::near(const Double3& point, double reach, double least_radius, 
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const std::uint32_t segment = order_[i] / pieces_;
       const Segment& s = segments_[segment];
-      if (s.limb == except || is_too_far(bounds.from_axis(s), std::max(s.radius_a, s.radius_b))) continue;
+      ++looked_at;
+      const double thickest = std::max(s.radius_a, s.radius_b);
+      if (s.limb == except || is_too_far(bounds.from_axis(s), thickest, segment)) continue;
       const Nearness n = nearness(segments_, segment, point);
       if (n.gap() <= reach) insert(n);
     }
   }
+  return looked_at;
 }
 
 bool SegmentTree::nearest(const Double3& point, double reach, std::uint32_t except, Nearness& found) const {

@@ -16,6 +16,9 @@ struct Segment {
   std::uint32_t limb = 0;
 };
 
+// Whether it lies more than it stands.
+bool is_level(const Segment& segment);
+
 // Where a point stands to a segment.
 struct Nearness {
   std::uint32_t segment = 0;
@@ -38,9 +41,11 @@ class SegmentTree {
 
   // The segments, at most one a limb, whose surface is not farther than `reach` from the point or that
   // contain it: by ascending distance from the axis in radii (never less than `least_radius`), ties by
-  // segment; no more than `count`. Segments of `except` do not count. `found` is overwritten.
-  void near(const Double3& point, double reach, double least_radius, std::uint32_t except, std::size_t count,
-            std::vector<Nearness>& found) const;
+  // descending radius, then by segment; no more than `count`. A distance that rounding may have made
+  // (tolerances.h: k_rounding) is none. Segments of `except` do not count. `found` is overwritten. Returns at
+  // how many pieces of axes it has looked.
+  std::size_t near(const Double3& point, double reach, double least_radius, std::uint32_t except,
+                   std::size_t count, std::vector<Nearness>& found) const;
 
   // The segment whose surface is nearest to the point, or contains it deepest, if its gap is at most `reach`;
   // false when there is none. Ties go to the lower segment.
@@ -48,8 +53,9 @@ class SegmentTree {
 
  private:
   struct Node {
-    DoubleBox box;            // of the axes, or their pieces
-    double radius = 0;        // the largest
+    DoubleBox box;             // of the axes, or their pieces
+    double radius = 0;         // the largest
+    std::uint32_t lowest = 0;  // segment
     std::uint32_t first = 0;  // leaf: first of order_; inner: the right child (the left one follows the node)
     std::uint32_t count = 0;  // leaf: pieces; inner: 0
   };
@@ -59,6 +65,7 @@ class SegmentTree {
   Double3 middle_of(std::uint32_t piece) const;
 
   std::vector<Segment> segments_;
+  double noise_ = 0;                  // of a distance
   std::uint32_t pieces_ = 1;          // of each axis, equally long
   std::vector<std::uint32_t> order_;  // pieces: piece p is of segment p / pieces_
   std::vector<Node> nodes_;
