@@ -77,6 +77,18 @@ TEST(StrictModel, NamesFreeTubesAndRadiiWithTwoParents) {
   EXPECT_EQ(rules(two.read()), std::vector<std::string>{"4.4"});
 }
 
+TEST(StrictModel, WhatNoRootReachesHidesNoOtherBreach) {
+  Model m = sound_model();
+  const auto a = m.ring({9, 3, 0}, 1, 4), b = m.ring({9, 4, 0}, 1, 4), c = m.ring({9, 5, 0}, 1, 4);
+  m.band(a, b, 4), m.band(b, c, 4);
+  const auto d = m.ring({19, 4, 0}, 1, 5), e = m.ring({19, 3, 0}, 1, 5);  // from the top, as thick as others
+  m.band(d, e, 5);
+  const StrictModel s = m.read();
+  ASSERT_EQ(rules(s), (std::vector<std::string>{"4.5", "4.1"}));
+  EXPECT_EQ(s.breaches[0].elements, (std::vector<std::uint32_t>{a, b, c}));
+  EXPECT_EQ(s.breaches[1].elements.size(), 22u);
+}
+
 TEST(StrictModel, NamesACylinderWithAHole) {
   Model m = sound_model();
   m.mesh.triangles.erase(m.mesh.triangles.begin() + 13);  // of the band that ends in the ring of vertex 10

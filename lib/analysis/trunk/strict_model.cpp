@@ -128,10 +128,12 @@ class Reader {
   void run(std::span<const std::uint32_t> welded, std::span<const std::uint32_t> leaf_of) {
     find_roots();
     for (std::uint32_t r = 0; r < out_.parent.size(); ++r) find_children(r);
+    Breach unreached = check_reached();
+    read_unreached(border_edges(welded, leaf_of));
     keep(out_.breaches, std::move(root_sizes_));
     keep(out_.breaches, std::move(sizes_));
     check_joints();
-    check_reached();
+    keep(out_.breaches, std::move(unreached));
     check_bands(welded, leaf_of);
   }
 
@@ -199,22 +201,91 @@ class Reader {
     keep(out_.breaches, std::move(joints));
   }
 
-  void check_reached() {
+  Breach check_reached() const {
     if (out_.parent.empty()) {
       Breach rootless = breach("4.6: a root radius has negative y",
                                "no vertex of the trunk lies below y = 0; the first of it", "vertex");
       for (std::uint32_t v = 0; v < graph_.size(); ++v) {
         if (graph_.used(v)) note(rootless, v);
       }
-      keep(out_.breaches, std::move(rootless));
-      return;
+      return rootless;
     }
     Breach loose = breach("4.1: the trunk is cylinders joined to one another",
                           "vertices that no root reaches along the edges", "vertex");
     for (std::uint32_t v = 0; v < graph_.size(); ++v) {
       if (graph_.used(v) && ring_of_[v] == k_none) note(loose, v);
     }
-    keep(out_.breaches, std::move(loose));
+    return loose;
+  }
+
+  using Edge = std::array<std::uint32_t, 2>;
+
+  // Of triangles that no root reaches, the edges that have one triangle, both ways.
+  std::vector<Edge> border_edges(std::span<const std::uint32_t> welded,
+                                 std::span<const std::uint32_t> leaf_of) const {
+    std::vector<Edge> all, border;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      if (leaf_of[i] != k_none) continue;
+      const Triangle t = welded_corners(mesh_.triangles[i], welded);
+      if (ring_of_[t[0]] != k_none) continue;
+      for (int e = 0; e < 3; ++e)
+        all.push_back({std::min(t[e], t[(e + 1) % 3]), std::max(t[e], t[(e + 1) % 3])});
+    }
+    std::ranges::sort(all);
+    for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
+      for (end = i + 1; end < all.size() && all[end] == all[i];) ++end;
+      if (end - i == 1 && all[i][0] != all[i][1])
+        border.push_back(all[i]), border.push_back({all[i][1], all[i][0]});
+    }
+    std::ranges::sort(border);
+    return border;
+  }
+
+  // What no root reaches breaks the rules already; its rings are read from the lowest open end of each part,
+  // so that this does not hide what else is wrong with them.
+  void read_unreached(const std::vector<Edge>& border) {
+    Indices part, end;
+    for (std::uint32_t seed = 0; seed < graph_.size(); ++seed) {
+      if (!graph_.used(seed) || ring_of_[seed] != k_none || mark_[seed] == k_none) continue;
+      part.assign(1, seed);
+      mark_[seed] = k_none;
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        for (const std::uint32_t w : graph_.neighbours(part[i])) {
+          if (mark_[w] != k_none && ring_of_[w] == k_none) mark_[w] = k_none, part.push_back(w);
+        }
+      }
+      lowest_end(part, border, end);
+      if (end.empty()) continue;
+      const std::uint32_t stamp = ++stamp_;
+      for (const std::uint32_t v : end) mark_[v] = stamp;
+      const auto first = static_cast<std::uint32_t>(out_.parent.size());
+      add_parts(end, stamp, k_none, sizes_);
+      for (std::uint32_t r = first; r < out_.parent.size(); ++r) find_children(r);
+    }
+  }
+
+  // The closed border of the part that holds its lowest border vertex; empty where the part is closed.
+  void lowest_end(const Indices& part, const std::vector<Edge>& border, Indices& end) {
+    const auto edges_of = [&](std::uint32_t v) {
+      return std::ranges::equal_range(border, v, {}, [](const Edge& e) { return e[0]; });
+    };
+    std::uint32_t lowest = k_none;
+    for (const std::uint32_t v : part) {
+      if (edges_of(v).empty()) continue;
+      const auto height = [&](std::uint32_t w) { return std::pair(mesh_.positions[w].y, w); };
+      if (lowest == k_none || height(v) < height(lowest)) lowest = v;
+    }
+    end.clear();
+    if (lowest == k_none) return;
+    end.push_back(lowest);
+    const std::uint32_t stamp = ++stamp_;
+    mark_[lowest] = stamp;
+    for (std::size_t i = 0; i < end.size(); ++i) {
+      for (const Edge& e : edges_of(end[i])) {
+        if (mark_[e[1]] != stamp) mark_[e[1]] = stamp, end.push_back(e[1]);
+      }
+    }
+    std::ranges::sort(end);
   }
 
   // Rule 4.1: two radii are joined by a cylinder, two triangles a side; radii that are no closed rings
