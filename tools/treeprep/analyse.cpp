@@ -1,5 +1,6 @@
 #include "tools/treeprep/analyse.h"
 
+#include "lib/analysis/measure/cylinder_error.h"
 #include "lib/analysis/tree/lone_segment.h"
 #include "lib/analysis/trunk/recover.h"
 #include "tools/treeprep/strict_stage.h"
@@ -40,11 +41,28 @@ TrunkMesh weld_stage(const Input& input, const Classification& classes, const Op
   return trunk;
 }
 
-Hierarchy skeleton_stage(const TrunkMesh& trunk, const Options& options, Context& context) {
+// A recovery that failed is not silent: a look at some of the triangles tells.
+void warn_of_unexplained(const Input& input, const TrunkMesh& trunk, const Hierarchy& hierarchy,
+                         Context& context) {
+  constexpr double k_usual = 0.05;  // caps and lumps
+  constexpr std::size_t k_looked_at = 20000;
+  if (hierarchy.radii.empty()) return;
+  const std::size_t every = trunk.triangles.size() / k_looked_at | 1;  // odd: quads are cut in two
+  const double unexplained = 1 - cylinder_error(trunk, hierarchy, 0, every).explained_triangles;
+  if (unexplained <= k_usual) return;
+  context.warn(fmt::format(
+      "{}: {:.0f} % of the trunk's triangles fit none of the branches that were found in it; look at them "
+      "with --html, and say with --leaf what is no trunk",
+      input.name, 100 * unexplained));
+}
+
+Hierarchy skeleton_stage(const Input& input, const TrunkMesh& trunk, const Options& options,
+                         Context& context) {
   Stage stage = context.stage("skeleton");
   stage.items(trunk.triangles.size(), "trunk triangles");
   Hierarchy hierarchy = recover_hierarchy(trunk, {.skeleton = options.skeleton, .roots = options.roots});
   add_lone_segment(trunk, hierarchy);
+  warn_of_unexplained(input, trunk, hierarchy, context);
   return hierarchy;
 }
 
@@ -67,7 +85,7 @@ Result<Analysis> analyse(Input& input, const Options& options, TreeKind kind, co
   }
   if (!options.strict) {
     a.trunk = weld_stage(input, a.classes, options, context);
-    a.hierarchy = skeleton_stage(a.trunk, options, context);
+    a.hierarchy = skeleton_stage(input, a.trunk, options, context);
   }
   const Double3 origin = choose_origin(bounds(input.mesh));
   a.leaves = leaf_stage(input, a.classes, a.hierarchy, origin, options, left_out, context);

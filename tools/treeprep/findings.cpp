@@ -89,6 +89,29 @@ Table components_table(const Mesh& mesh, std::span<const std::uint32_t> file_ord
   return table;
 }
 
+// "surface of 24 triangles at mesh triangle 7: no rings" says the same of every surface.
+std::string_view what_is_noted(std::string_view note) {
+  const std::size_t colon = note.starts_with("surface of ") ? note.find(": ") : std::string_view::npos;
+  return colon == std::string_view::npos ? note : note.substr(colon);
+}
+
+// Thousands of twigs may say the same: the first of them does.
+Table notes_table(const std::vector<std::string>& notes) {
+  std::map<std::string_view, std::uint64_t> more;
+  std::vector<std::string_view> first;
+  for (const std::string& note : notes) {
+    if (more.try_emplace(what_is_noted(note), 0).second) {
+      first.push_back(note);
+    } else {
+      ++more[what_is_noted(note)];
+    }
+  }
+  Table table{"about the skeleton", {"note", "more like it"}, {}};
+  for (const std::string_view note : first)
+    table.rows.push_back({std::string(note), count(more[what_is_noted(note)])});
+  return table;
+}
+
 ErrorRecord record(const char* name, const ErrorDistribution& d, const char* unit) {
   return {name, d.mean, unit, d.max, d.p95, d.rms, "input mesh"};
 }
@@ -100,9 +123,7 @@ void report_findings(const Findings& findings, Report& report) {
   if (!findings.hierarchy.radii.empty()) report.tables.push_back(skeleton_table(findings));
   report.tables.push_back(components_table(findings.mesh, findings.file_order, findings.classes));
   if (findings.hierarchy.notes.empty()) return;
-  Table notes{"about the skeleton", {"note"}, {}};
-  for (const std::string& note : findings.hierarchy.notes) notes.rows.push_back({note});
-  report.tables.push_back(std::move(notes));
+  report.tables.push_back(notes_table(findings.hierarchy.notes));
 }
 
 void report_errors(const CylinderError& error, Report& report) {

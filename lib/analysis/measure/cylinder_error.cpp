@@ -113,12 +113,13 @@ constexpr auto k_samples = std::to_array<Sample>({{{1, 0, 0}, 1.0 / 20},
 
 }  // namespace
 
-CylinderError cylinder_error(const TrunkMesh& trunk, const Hierarchy& hierarchy, double height) {
+CylinderError cylinder_error(const TrunkMesh& trunk, const Hierarchy& hierarchy, double height,
+                             std::size_t every) {
   Distribution of_radius, of_height;
   double area_all = 0, area_explained = 0;
-  std::size_t explained = 0;
+  std::size_t explained = 0, seen = 0;
   const RingCircles circles(hierarchy, trunk.positions.size());
-  for (std::size_t i = 0; i < trunk.triangles.size(); ++i) {
+  for (std::size_t i = 0; i < trunk.triangles.size(); i += every, ++seen) {
     const Triangle& t = trunk.triangles[i];
     const Double3 &a = trunk.positions[t[0]], &b = trunk.positions[t[1]], &c = trunk.positions[t[2]];
     const double area = 0.5 * length(cross(b - a, c - a));
@@ -147,7 +148,7 @@ CylinderError cylinder_error(const TrunkMesh& trunk, const Hierarchy& hierarchy,
   out.of_radius = of_radius.result();
   out.of_height = of_height.result();
   if (!trunk.triangles.empty()) {
-    out.explained_triangles = static_cast<double>(explained) / static_cast<double>(trunk.triangles.size());
+    out.explained_triangles = static_cast<double>(explained) / static_cast<double>(seen);
     out.explained_area = area_all > 0 ? area_explained / area_all : out.explained_triangles;
   }
   return out;
