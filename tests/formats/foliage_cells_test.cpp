@@ -59,6 +59,10 @@ TEST(FoliageCells, EachThingThatIsWrongIsNamed) {
             std::string::npos);
   EXPECT_NE(wrong([](auto& f) { f.parameters.far = 0.5; }).find("FPAR"), std::string::npos);
   EXPECT_NE(wrong([&](auto& f) { f.parameters.near = nan; }).find("FPAR"), std::string::npos);
+  EXPECT_NE(wrong([](auto& f) { f.parameters.ramp = FoliageParameters::Ramp{2}; }).find("FPAR"),
+            std::string::npos);
+  EXPECT_NE(wrong([](auto& f) { f.parameters.anchor = FoliageParameters::Anchor{1}; }).find("FPAR"),
+            std::string::npos);
   EXPECT_NE(wrong([](auto& f) { f.parameters.half_distance = 1; }).find("FPAR"), std::string::npos);
   EXPECT_NE(wrong([](auto& f) { f.parameters.anchor = FoliageParameters::Anchor(7); }).find("FPAR"),
             std::string::npos);

@@ -47,17 +47,18 @@ double visibility_of(const FoliageCells& f, std::size_t cell, const Double3& d) 
 
 TEST(FoliageLevels, TheRampsAreThoseOfThePaper) {
   FoliageParameters p;
-  p.near = 1, p.far = 11, p.least = 0, p.half_distance = 2;
+  p.near = 1, p.far = 11, p.least = 0, p.half_distance = 2, p.ramp = FoliageParameters::Ramp::power;
   for (const auto& [z, u] : {std::pair{1.0, 1.0}, {2.0, 0.5}, {4.0, 0.25}, {8.0, 0.125}})
-    EXPECT_NEAR(ramp_share(p, z, FoliageRamp::power), u, 1e-12);
+    EXPECT_NEAR(ramp_share(p, z), u, 1e-12);
   p.half_distance = 4;
-  EXPECT_NEAR(ramp_share(p, 2, FoliageRamp::power), std::numbers::sqrt2 / 2, 1e-12);
-  EXPECT_NEAR(ramp_share(p, 6, FoliageRamp::linear), 0.5, 1e-12);
-  EXPECT_EQ(ramp_share(p, 0.1, FoliageRamp::power), 1);
-  EXPECT_EQ(ramp_share(p, 50, FoliageRamp::linear), 0);
-  EXPECT_EQ(ramp_share(p, std::nan(""), FoliageRamp::linear), 1);
+  EXPECT_NEAR(ramp_share(p, 2), std::numbers::sqrt2 / 2, 1e-12);
+  EXPECT_EQ(ramp_share(p, 0.1), 1);
+  p.ramp = FoliageParameters::Ramp::linear;
+  EXPECT_NEAR(ramp_share(p, 6), 0.5, 1e-12);
+  EXPECT_EQ(ramp_share(p, 50), 0);
+  EXPECT_EQ(ramp_share(p, std::nan("")), 1);
   p.near = p.far = 5;
-  EXPECT_EQ(ramp_share(p, 5.1, FoliageRamp::linear), p.least) << "a step";
+  EXPECT_EQ(ramp_share(p, 5.1), p.least) << "a step";
 }
 
 TEST(FoliageLevels, AtAStoredViewpointTheStoredValueAndInBetweenNoJump) {
@@ -88,7 +89,7 @@ TEST(FoliageLevels, UniformlyEveryCellHasTheShareOfItsDistance) {
   for (const double z : {5.0, 40.0, 60.0, 500.0}) {
     levels.choose({1.5, 0, z}, {.uniform = true}, out);
     for (const CellLevel& cell : out)
-      EXPECT_EQ(cell.count, std::ceil(100 * ramp_share(f.parameters, z, FoliageRamp::linear) - 1e-7)) << z;
+      EXPECT_EQ(cell.count, std::ceil(100 * ramp_share(f.parameters, z) - 1e-7)) << z;
   }
 }
 
@@ -139,6 +140,51 @@ TEST(FoliageLevels, TheAreaOfWhatDistanceTakesIsKeptExactly) {
   f.parameters.largest_enlargement = 1.5f;
   levels.choose({1.5, 0, 500}, {}, out);
   for (const CellLevel& cell : out) EXPECT_LE(cell.enlargement, 1.5f);
+}
+
+// What is drawn of all cells, by the areas that leaves have.
+double drawn_area(const FoliageCells& f, const FoliageLevels& levels, const std::vector<CellLevel>& drawn,
+                  const std::vector<LeafSize>& sizes) {
+  double sum = 0;
+  for (std::size_t c = 0; c < drawn.size(); ++c)
+    for (std::uint32_t i = 0; i < drawn[c].count; ++i) {
+      const std::size_t place = f.cells[c].first + i;
+      const float part = i + 1 == drawn[c].count ? drawn[c].last : 1.0f;
+      sum += double{sizes[f.order[place]].area} * double{levels.enlargement(drawn[c], place)} * double{part};
+    }
+  return sum;
+}
+
+TEST(FoliageLevels, UnequalLeavesKeepTheSumOfTheirAreas) {
+  FoliageCells f = four_cells();
+  f.parameters.largest_enlargement = 1e4f;
+  std::vector<LeafSize> sizes(400);
+  double all = 0;
+  for (std::size_t i = 0; i < 400; ++i) all += sizes[i].area = i % 25 == 3 ? 4.0f : 0.01f;
+  const FoliageLevels levels(f, sizes);
+  std::vector<CellLevel> out(4);
+  for (const bool shrinking : {false, true})
+    for (const double z : {20.0, 60.0, 105.0, 400.0}) {
+      levels.choose({1.5, 0, z}, {.uniform = true, .shrinking = shrinking}, out);
+      EXPECT_NEAR(drawn_area(f, levels, out, sizes), all, 1e-4 * all) << z;
+    }
+}
+
+TEST(FoliageLevels, NoLeafGrowsFartherThanItCanAndItsNeighboursDoInstead) {
+  FoliageCells f = four_cells();
+  std::vector<LeafSize> sizes(400);
+  for (std::size_t i = 0; i < 400; ++i) sizes[i] = {1, i % 3 == 0 ? 1.2f : 15.0f};
+  for (std::uint32_t i = 0; i < 100; ++i) sizes[f.order[i]].most = 1;  // the first cell cannot grow at all
+  const FoliageLevels levels(f, sizes);
+  std::vector<CellLevel> out(4);
+  levels.choose({1.5, 0, 60}, {.uniform = true}, out);
+  EXPECT_NEAR(drawn_area(f, levels, out, sizes), 400, 1e-3);
+  for (std::size_t c = 0; c < 4; ++c)
+    for (std::uint32_t i = 0; i < out[c].count; ++i) {
+      const std::size_t place = f.cells[c].first + i;
+      EXPECT_LE(levels.enlargement(out[c], place), sizes[f.order[place]].most);
+    }
+  EXPECT_GT(out[1].enlargement, out[3].enlargement) << "the next cell takes what the first cannot hold";
 }
 
 TEST(FoliageLevels, AFartherEyeDrawsASubset) {

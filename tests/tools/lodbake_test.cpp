@@ -1,5 +1,5 @@
 #include "lib/formats/import/image.h"
-#include "lib/formats/import/import.h"
+#include "lib/formats/levels/foliage_cells.h"
 #include "lib/formats/tree_file/tree_file.h"
 #include "tests/formats/tampering.h"
 #include "tests/tools/baked_oak.h"
@@ -297,6 +297,25 @@ TEST_F(Lodbake, PrunedFoliageComesWithItsCells) {
   ASSERT_TRUE(file.has_value());
   for (const char* section : {"FCEL", "FORD", "FVIS", "FPAR"}) EXPECT_TRUE(file->has(section)) << section;
   EXPECT_LE(triangles({"--level", "1"}), (8u * 2 * 11 + 60) * 3 / 10);
+}
+
+TEST_F(Lodbake, WhatARuntimeMakesOfCellsIsSetAndStored) {
+  const Outcome o =
+      bake({"--foliage=prune", "--views=12", "--near=3", "--far=30", "--prune-ramp=power", "--prune-half=3",
+            "--prune-least=0.2", "--prune-growth=9", "--prune-distance=tree", "--prune-compensation=total"});
+  ASSERT_EQ(o.status, 0) << o.err;
+  const auto cells = read_foliage_cells(*TreeFile::open(out_));
+  ASSERT_TRUE(cells.has_value());
+  const FoliageParameters& p = cells->parameters;
+  EXPECT_EQ(p.near, 3);
+  EXPECT_EQ(p.far, 30);
+  EXPECT_EQ(p.ramp, FoliageParameters::Ramp::power);
+  EXPECT_EQ(p.half_distance, 3);
+  EXPECT_EQ(p.least, 0.2f);
+  EXPECT_EQ(p.largest_enlargement, 9);
+  EXPECT_EQ(p.distance, FoliageParameters::Distance::tree);
+  EXPECT_EQ(p.compensation, FoliageParameters::Compensation::total);
+  EXPECT_EQ(bake({"--prune-least", "0.2"}).status, 2) << "leaves collapse";
 }
 
 TEST_F(Lodbake, MethodsHaveNames) {

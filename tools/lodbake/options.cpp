@@ -49,6 +49,50 @@ auto given(bool& flag) {
   return [&flag](const std::string&) { flag = true; };
 }
 
+// What a runtime makes of the cells of --foliage prune (erratum P19).
+void add_pruning(CLI::App& group, Options& options) {
+  PruningOptions& p = options.pruning;
+  using P = FoliageParameters;
+  const auto note = given(options.pruning_given);
+  add_choice<P::Ramp>(group, "--prune-ramp", p.ramp,
+                      "of --foliage prune: leaves fall straight from --near to --far, or by equation 1",
+                      {{"linear", P::Ramp::linear}, {"power", P::Ramp::power}})
+      ->type_name("linear|power")
+      ->each(note);
+  group
+      .add_option("--prune-half", p.half_distance,
+                  "of --prune-ramp power: the multiple of --near at which half of the leaves are left")
+      ->check(number_above(1))
+      ->type_name("H")
+      ->each(note)
+      ->capture_default_str();
+  group
+      .add_option("--prune-least", p.least,
+                  "of --foliage prune: share of the leaves that is left from --far on")
+      ->check(number_between(0, 1))
+      ->type_name("F")
+      ->each(note)
+      ->capture_default_str();
+  group
+      .add_option("--prune-growth", p.largest_enlargement,
+                  "of --foliage prune: by so much the area of a leaf grows at most")
+      ->check(number_between(1, 1e6))
+      ->type_name("G")
+      ->each(note)
+      ->capture_default_str();
+  add_choice<P::Distance>(group, "--prune-distance", p.distance,
+                          "of --foliage prune: how far away each cell is, or the tree",
+                          {{"cell", P::Distance::cell}, {"tree", P::Distance::tree}})
+      ->type_name("cell|tree")
+      ->each(note);
+  add_choice<P::Compensation>(
+      group, "--prune-compensation", p.compensation,
+      "of --foliage prune: leaves grow for those that distance takes, or for hidden ones too",
+      {{"distance", P::Compensation::distance}, {"total", P::Compensation::total}})
+      ->type_name("distance|total")
+      ->each(note);
+}
+
 }  // namespace
 
 void add_options(CLI::App& app, Options& options) {
@@ -154,6 +198,7 @@ void add_options(CLI::App& app, Options& options) {
       ->each(given(options.cells_given))
       ->type_name("N")
       ->capture_default_str();
+  add_pruning(*methods, options);
   methods
       ->add_option("--impostor", options.impostor,
                    "behind the last level the tree as pictures, so many pixels a side each")
@@ -225,6 +270,9 @@ Result<void> check_methods(const Options& options) {
     return usage("--method: leaves collapse or are pruned, not both", "name one of them");
   if (options.quality_given && options.foliage == FoliageMethod::prune)
     return usage("--quality is of --foliage collapse, and leaves are to be pruned", "drop one of them");
+  if (options.pruning_given && options.foliage != FoliageMethod::prune && !options.sweep)
+    return usage("the options --prune-... are of --foliage prune, and leaves collapse",
+                 "drop them, or add --foliage prune");
   if (lines_points_alone(options) && (options.continuous || !options.discrete.empty() ||
                                       !options.discrete_error.empty() || options.impostor > 0))
     return usage("--method lines-points bakes no levels, and levels are asked for",

@@ -1,6 +1,7 @@
 // The command line of lodbake.
 #pragma once
 
+#include "lib/analysis/lod/foliage_pruning.h"
 #include "lib/analysis/lod/leaf_collapse.h"
 #include "lib/analysis/lod/limb_ladder.h"
 #include "lib/formats/levels/impostors.h"
@@ -37,6 +38,8 @@ struct Options {
   FoliageMethod foliage = FoliageMethod::collapse;
   CollapseQuality quality = CollapseQuality::balanced;  // of --foliage collapse
   std::uint32_t cells = 256;  // of --foliage prune, at most; fewer for few leaves when not given
+  PruningOptions pruning;     // of --foliage prune, beside what is named above
+  bool pruning_given = false;
   bool lines_points = false;
   int impostor = 0;  // pixels of a view's side; 0: none
   int impostor_views = 8;

@@ -69,12 +69,11 @@ LeafParts leaf_spectrum(const Tree& tree, const Looks& looks, const Options& opt
   }
   // Small cells hold few leaves: these could not grow.
   const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(1, tree.leaf_count() / k_leaves_a_cell));
-  out.cells = prune_foliage(tree, looks,
-                            {.cells = options.cells_given ? options.cells : std::min(options.cells, most),
-                             .views = options.views,
-                             .seed = seed,
-                             .near = options.near.value_or(0),
-                             .far = options.far.value_or(0)});
+  PruningOptions pruning = options.pruning;
+  pruning.cells = options.cells_given ? options.cells : std::min(options.cells, most);
+  pruning.views = options.views, pruning.seed = seed;
+  pruning.near = options.near.value_or(0), pruning.far = options.far.value_or(0);
+  out.cells = prune_foliage(tree, looks, pruning);
   out.spectrum = pruned_spectrum(tree, *out.cells);
   return out;
 }

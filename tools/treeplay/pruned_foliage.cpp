@@ -9,14 +9,9 @@ namespace copse::treeplay {
 
 PrunedFoliage::PrunedFoliage(const Tree& tree, FoliageCells cells, TreeGeometry& geometry)
     : cells_(std::make_unique<const FoliageCells>(std::move(cells))),
-      levels_(*cells_),
-      centres_(tree.leaves.centres.to_vector()),
-      cell_of_(tree.leaf_count(), 0) {
+      levels_(*cells_, leaf_sizes(tree, *cells_)),
+      centres_(tree.leaves.centres.to_vector()) {
   centres_.resize(tree.leaf_count());
-  for (std::uint32_t c = 0; c < cells_->cells.size(); ++c) {
-    const FoliageCell& cell = cells_->cells[c];
-    for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) cell_of_[cells_->order[i]] = c;
-  }
   const std::vector<std::uint32_t> order = leaves_in_order(tree);
   leaf_of_ = range_owners(tree, geometry.ranges);
   first_vertex_ = static_cast<std::uint32_t>(geometry.vertices.size());
@@ -38,14 +33,17 @@ PrunedFoliage::PrunedFoliage(const Tree& tree, FoliageCells cells, TreeGeometry&
 void PrunedFoliage::select(const TreeGeometry& geometry, const Double3& eye, Frame& out) const {
   std::vector<CellLevel> levels(levels_.cell_count());
   levels_.choose(eye, {}, levels);
-  std::vector<std::uint32_t> list(levels_.leaf_count());
-  out.leaf_count = levels_.extract(levels, list);
-  std::vector<float> scale(cell_of_.size(), 0);  // of lengths; 0: not drawn
-  for (std::size_t i = 0; i < out.leaf_count; ++i)
-    scale[list[i]] = std::sqrt(levels[cell_of_[list[i]]].enlargement);
-  for (std::size_t c = 0; c < levels.size(); ++c)
-    if (levels[c].count > 0)
-      scale[cells_->order[cells_->cells[c].first + levels[c].count - 1]] *= std::sqrt(levels[c].last);
+  out.leaf_count = 0;
+  for (const CellLevel& level : levels) out.leaf_count += level.count;
+  std::vector<float> scale(centres_.size(), 0);  // of lengths; 0: not drawn
+  for (std::size_t c = 0; c < levels.size(); ++c) {
+    const FoliageCell& cell = cells_->cells[c];
+    for (std::uint32_t i = 0; i < levels[c].count; ++i) {
+      const float area = levels_.enlargement(levels[c], cell.first + i),
+                  left = i + 1 == levels[c].count ? levels[c].last : 1.0f;
+      scale[cells_->order[cell.first + i]] = std::sqrt(area * left);
+    }
+  }
   out.leaves.assign(geometry.vertices.begin() + first_vertex_, geometry.vertices.end());
   out.indices.clear();
   out.ranges = geometry.ranges;

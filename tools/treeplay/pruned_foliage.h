@@ -31,8 +31,7 @@ class PrunedFoliage {
  private:
   std::unique_ptr<const FoliageCells> cells_;
   FoliageLevels levels_;
-  std::vector<Float3> centres_;  // of the leaves
-  std::vector<std::uint32_t> cell_of_;
+  std::vector<Float3> centres_;                      // of the leaves
   std::vector<std::vector<std::uint32_t>> leaf_of_;  // of every range's triangles; empty for the trunk's
   std::uint32_t first_vertex_ = 0;
 };

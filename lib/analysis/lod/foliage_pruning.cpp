@@ -61,7 +61,9 @@ FoliageParameters parameters_of(const Tree& tree, const PruningOptions& options)
   p.near = static_cast<float>(chosen ? options.near : 2 * radius);
   p.far = static_cast<float>(chosen ? std::max(options.far, options.near) : 40 * radius);
   p.least = static_cast<float>(options.least);
+  p.half_distance = static_cast<float>(options.half_distance);
   p.largest_enlargement = static_cast<float>(options.largest_enlargement);
+  p.distance = options.distance, p.compensation = options.compensation, p.ramp = options.ramp;
   p.resolution = static_cast<std::uint32_t>(options.resolution);
   p.seed = options.seed, p.leaves = hash_leaves(tree);
   return p;

@@ -24,7 +24,12 @@ struct PruningOptions {
   std::uint64_t seed = 0;
   double near = 0, far = 0;  // metres; 0, 0: 2 and 40 times the crown's radius
   double least = 0.05;
+  double half_distance = 2;  // h of equation 1, > 1
   double largest_enlargement = 64;
+  // What a runtime is to do (erratum P19); the spectrum does not depend on these.
+  FoliageParameters::Distance distance = FoliageParameters::Distance::cell;
+  FoliageParameters::Compensation compensation = FoliageParameters::Compensation::distance;
+  FoliageParameters::Ramp ramp = FoliageParameters::Ramp::linear;
 };
 
 // Cells, order, views, visibility and parameters. Inside a cell the order is stratified: the leaves in the

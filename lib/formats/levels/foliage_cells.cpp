@@ -45,7 +45,8 @@ std::string check_parameters(const FoliageParameters& p) {
   if (!(p.half_distance > 1) || !std::isfinite(p.half_distance)) return "FPAR: h is not above 1";
   if (!(p.largest_enlargement >= 1) || !std::isfinite(p.largest_enlargement))
     return "FPAR: the largest enlargement is below 1";
-  if (std::uint32_t(p.distance) > 1 || std::uint32_t(p.compensation) > 1 || std::uint32_t(p.anchor) > 1)
+  if (std::uint32_t(p.distance) > 1 || std::uint32_t(p.compensation) > 1 || std::uint32_t(p.anchor) > 0 ||
+      std::uint32_t(p.ramp) > 1)
     return "FPAR: a choice has no known value";
   return {};
 }

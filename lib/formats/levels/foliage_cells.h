@@ -34,7 +34,10 @@ struct CellVisibility {
 struct FoliageParameters {
   enum class Distance : std::uint32_t { cell = 0, tree = 1 };           // erratum P10
   enum class Compensation : std::uint32_t { distance = 0, total = 1 };  // erratum P5
-  enum class Anchor : std::uint32_t { centre = 0, petiole = 1 };
+  enum class Anchor : std::uint32_t { centre = 0 };  // about which leaves grow: a card tells no petiole
+  // How much is left at a distance: `linear`: full up to near, `least` from far on, straight between (what
+  // the paper built); `power`: equation 1, distance^(-log_h 2) with distances in units of near (erratum P2).
+  enum class Ramp : std::uint32_t { linear = 0, power = 1 };
   float near = 0, far = 0;  // full detail up to near, least from far on; metres, near <= far
   float least = 0.05f;      // fraction of the leaves beyond far, 0 to 1
   float half_distance = 2;  // h of equation 1, > 1: the multiple of `near` at which half of the leaves remain
@@ -43,7 +46,7 @@ struct FoliageParameters {
   Compensation compensation = Compensation::distance;
   Anchor anchor = Anchor::centre;
   std::uint32_t resolution = 0;  // pixels of a view's side at which visibility was counted
-  std::uint32_t reserved = 0;
+  Ramp ramp = Ramp::linear;
   std::uint64_t seed = 0;
   std::uint64_t leaves = 0;  // hash of the leaf vertices that this was made from (hazard N21)
   friend bool operator==(const FoliageParameters&, const FoliageParameters&) = default;
