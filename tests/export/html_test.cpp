@@ -103,6 +103,15 @@ TEST(Html, DrawingThePageIsNoPartOfTheTimeNorOfTheRate) {
   const std::string html = to_html(r);
   EXPECT_NE(html.find("<dt>time</dt><dd>1 s</dd><dd>and 3 s to draw this page</dd>"), std::string::npos);
   EXPECT_NE(html.find("<dd>20 k a second</dd>"), std::string::npos);
+  // Nor of the timeline: the other stages' bars and shares are those of the second of work.
+  r.stages.pop_back();
+  r.seconds = 1;
+  const std::string undrawn = to_html(r);
+  const auto bars = [](const std::string& page) { return count(page, "class=\"lane\""); };
+  EXPECT_EQ(bars(html), bars(undrawn));
+  const std::size_t first = undrawn.find("class=\"lane\"");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_NE(html.find(undrawn.substr(first, 80)), std::string::npos);
 }
 
 TEST(Html, APartThatIsEmptyHasNoHeading) {

@@ -116,8 +116,7 @@ TEST(FaceBreaks, StrayVerticesAreNamedByNoFace) {
 TEST(NameBreaks, NamesAreMissingNeutralOrOne) {
   const Mesh named = small_tree("birch", "artist").mesh, none = small_tree("birch", "no-names").mesh,
              neutral = small_tree("birch", "neutral-names").mesh,
-             one = small_tree("birch", "one-material").mesh,
-             leafy = small_tree("birch", "leafy-name").mesh;
+             one = small_tree("birch", "one-material").mesh, leafy = small_tree("birch", "leafy-name").mesh;
   ASSERT_EQ(named.materials.size(), 2u);
   EXPECT_EQ(named.materials[0].name, "bark_birch");
   EXPECT_EQ(named.materials[1].name, "leaf_birch");

@@ -14,8 +14,8 @@ namespace copse::ecogen {
 
 using Json = nlohmann::ordered_json;
 
-// "types[0].count=500": a value that exists, or a new key of an object that exists. What is right of the first
-// '=' is JSON, or a text when it is none. Faults are of usage.
+// "types[0].count=500": a value that exists, or a new key of an object that exists. What is right of the
+// first '=' is JSON, or a text when it is none. Faults are of usage.
 Result<void> edit(Json& document, const std::string& assignment);
 
 // JSON Schema calls 10.0 an integer, and so do pages: numbers without a fraction become integers where they

@@ -52,11 +52,20 @@ const StageRecord* largest_stage(const Report& report) {
   return best;
 }
 
-// Seconds of the run that went into the pictures of this very page; what is a second of work leaves them out.
+double seconds_of(const StageRecord& stage) {
+  return std::isfinite(stage.seconds) ? std::max(stage.seconds, 0.0) : 0;
+}
+
+// The stage that makes the pictures of this very page: no part of the work, so it is left out of its time,
+// its rate and its stages' shares.
+bool draws_the_page(const StageRecord& stage) {
+  return stage.name == "draw";
+}
+
 double drawing_seconds(const Report& report) {
   double seconds = 0;
   for (const StageRecord& stage : report.stages) {
-    if (stage.name == "draw" && std::isfinite(stage.seconds)) seconds += std::max(stage.seconds, 0.0);
+    if (draws_the_page(stage)) seconds += seconds_of(stage);
   }
   return std::min(seconds, report.seconds);
 }
@@ -106,12 +115,13 @@ void add_stages(std::string& out, const Report& report) {
   if (report.stages.empty()) return;
   double sum = 0, longest = 0;
   for (const StageRecord& stage : report.stages) {
-    const double seconds = std::isfinite(stage.seconds) ? std::max(stage.seconds, 0.0) : 0;
-    sum += seconds;
-    longest = std::max(longest, seconds);
+    if (draws_the_page(stage)) continue;
+    sum += seconds_of(stage);
+    longest = std::max(longest, seconds_of(stage));
   }
-  const bool in_sequence = report.seconds <= 0 || sum <= 1.02 * report.seconds;
-  const double whole = in_sequence ? std::max(sum, report.seconds) : longest;
+  const double working = report.seconds - drawing_seconds(report);
+  const bool in_sequence = working <= 0 || sum <= 1.02 * working;
+  const double whole = in_sequence ? std::max(sum, working) : longest;
   out +=
       "<section><h2>Stages</h2><div class=\"scroll\"><table><thead><tr><th scope=\"col\">stage</th>"
       "<th scope=\"col\" class=\"time\">when</th><th scope=\"col\" class=\"n\">time</th>"
@@ -119,19 +129,21 @@ void add_stages(std::string& out, const Report& report) {
       "<th scope=\"col\" class=\"n\">a second</th></tr></thead><tbody>";
   double start = 0;
   for (const StageRecord& stage : report.stages) {
-    const double seconds = std::isfinite(stage.seconds) ? std::max(stage.seconds, 0.0) : 0;
-    const double scale = whole > 0 ? 100 / whole : 0;
-    out += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td class=\"time\"><span class=\"lane\" aria-hidden=\"true\">"
-        "<span style=\"left:{:.2f}%;width:{:.2f}%\"></span></span></td><td class=\"n\">{}</td>"
-        "<td class=\"n soft\">{}</td>",
-        escape_html(stage.name), in_sequence ? start * scale : 0.0, seconds * scale, show_seconds(seconds),
-        whole > 0 ? show_number(seconds * scale, 2) + " %" : "");
+    const double seconds = seconds_of(stage), scale = whole > 0 ? 100 / whole : 0;
+    const bool barred = !draws_the_page(stage) && whole > 0;
+    out += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"time\">", escape_html(stage.name));
+    if (barred)
+      out += fmt::format(
+          "<span class=\"lane\" aria-hidden=\"true\"><span "
+          "style=\"left:{:.2f}%;width:{:.2f}%\"></span></span>",
+          in_sequence ? start * scale : 0.0, seconds * scale);
+    out += fmt::format("</td><td class=\"n\">{}</td><td class=\"n soft\">{}</td>", show_seconds(seconds),
+                       barred ? show_number(seconds * scale, 2) + " %" : "");
     const bool counted = !stage.unit.empty();
     out += fmt::format("<td class=\"n\">{}</td><td class=\"n soft\">{}</td></tr>",
                        counted ? show_count(stage.items) + " " + escape_html(stage.unit) : "",
                        counted && seconds > 0 ? show_rate(static_cast<double>(stage.items) / seconds) : "");
-    start += seconds;
+    if (barred) start += seconds;
   }
   out += "</tbody></table></div></section>\n";
 }
