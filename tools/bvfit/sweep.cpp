@@ -25,18 +25,20 @@ constexpr double k_useful = 1e4;  // an excess over a bound that says less is no
 // What a search has by these shares of its time.
 constexpr std::array k_shares{1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2};
 
-// On a fitter of its own: one remembers what it has found. None where float32 cannot hold the volume.
+// On a fitter of its own: one remembers what it has found. None where float32 cannot hold the volume. The
+// best of several: of a run with a limit that the machine interrupted, less has come than the time allows.
 std::optional<Run> run_of(const PartSet& set, const FitMethod& method, FitQuality quality, double limit) {
-  Run run{method, "", 0, 0, std::numeric_limits<double>::infinity(), 0};
+  constexpr double k_never = std::numeric_limits<double>::infinity();
+  Run run{method, "", k_never, 0, k_never, 0};
   for (int i = 0; i < k_repeats && (i == 0 || run.seconds <= k_quick); ++i) {
     const auto fitter = VolumeFitter::make(set.points, set.triangles);
     if (!fitter) return std::nullopt;
     if (method.on_hull) fitter->hull();  // the limit is the fit's alone
     const auto fit = fitter->fit(method, {quality, limit > 0 ? Deadline::after(limit) : Deadline()});
     if (!fit) return std::nullopt;
-    if (fit->seconds >= run.seconds) continue;
-    run.volume = fit->measures.volume, run.lower_bound = fit->lower_bound;
-    run.seconds = fit->seconds, run.hull_seconds = fitter->hull_seconds();
+    run.volume = std::min(run.volume, fit->measures.volume);
+    run.lower_bound = std::max(run.lower_bound, fit->lower_bound);
+    if (fit->seconds < run.seconds) run.seconds = fit->seconds, run.hull_seconds = fitter->hull_seconds();
   }
   return run;
 }
