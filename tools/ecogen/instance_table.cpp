@@ -213,10 +213,12 @@ std::string instances_csv(const Ecosystem& eco) {
     for (std::size_t k = b.first; k < b.first + b.count; ++k) {
       const Instance i = instance_of(eco, b, k);
       const Angles a = angles_of(i.rotation);
+      const auto unsigned_zero = [](double x) { return x + 0.0; };  // nobody has said -0
       fmt::format_to(std::back_inserter(out), "{},{},{},{},{:.9g},{:.9g},{:.9g},{},{},{},{},{},{},{}\n",
-                     field(eco.types[i.type].name), i.position.x, i.position.y, i.position.z, a.head, a.pitch,
-                     a.roll, i.scale, material(i.trunk_material), material(i.leaf_material), i.motion,
-                     i.tint[0], i.tint[1], i.tint[2]);
+                     field(eco.types[i.type].name), i.position.x, i.position.y, i.position.z,
+                     unsigned_zero(a.head), unsigned_zero(a.pitch), unsigned_zero(a.roll), i.scale,
+                     material(i.trunk_material), material(i.leaf_material), i.motion, i.tint[0], i.tint[1],
+                     i.tint[2]);
     }
   return out;
 }
