@@ -2,7 +2,7 @@
 """The leaves of the trees at ../shared/trees and of treegrow's species at 50, 25, 10, 5 and 2 % of their triangles: area, coverage, hull
 growth and image error of leaf collapse beside meshoptimizer, and how many trees meet the targets. The tables of docs/results/lod-leaves.md.
 
-./run bench lod_leaves                              every tree, balanced: some five minutes of a processor
+./run bench lod_leaves                              every tree, balanced: a minute or two of a processor
 python3 bench/lod_leaves.py [--quality Q] NAME...   the trees whose names begin so (treeprep, treegrow and bench_lod_leaves must be in PATH)
 """
 import pathlib

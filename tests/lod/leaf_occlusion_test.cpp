@@ -60,10 +60,7 @@ TEST(LeafOcclusion, WhatABoxHidesGoesAndTheBoxStays) {
   crown.box({}, 1);
   const Occlusion o = crown.run({.samples = 200, .least = 12});
   ASSERT_EQ(o.gone.size(), 30u);
-  for (const Occlusion::Gone& g : o.gone) {
-    EXPECT_LT(g.leaf, 30u);
-    EXPECT_EQ(g.alone, 0);
-  }
+  for (const std::uint32_t leaf : o.gone) EXPECT_LT(leaf, 30u);
 }
 
 TEST(LeafOcclusion, EndsWithTheTrianglesAndBeforeTheCoverageThatWasAskedFor) {
@@ -82,7 +79,7 @@ TEST(LeafOcclusion, KeepsTheCoverageFromSidesThatHadNoSay) {
   const Crown crown = cloud(3000, 0.1);
   const Occlusion o = crown.run({.coverage = 0.98});
   Crown left = cloud(3000, 0.1);
-  for (const Occlusion::Gone& g : o.gone) left.drop(g.leaf);
+  for (const std::uint32_t g : o.gone) left.drop(g);
   const auto seen = [](const Crown& c) {
     return c.run({.views = 40, .samples = 400, .least = 1u << 20}).seen;
   };
@@ -117,7 +114,7 @@ TEST(LeafOcclusion, WhatIsKnownBesideDecidesAmongEquals) {
   const std::vector<float> prior{3, 1, 2, 0};
   const Occlusion o = crown.run({.coverage = 0.5, .prior = prior});
   ASSERT_EQ(o.gone.size(), 3u);
-  EXPECT_EQ(o.gone[0].leaf, 1u)
+  EXPECT_EQ(o.gone[0], 1u)
       << "3 shows behind, 0 in front; of the two that no one sees the one that costs less";
 }
 
@@ -127,7 +124,7 @@ TEST(LeafOcclusion, DoesNotDependOnTheNumberOfThreads) {
   tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const Occlusion single = crown.run({.coverage = 0.9});
   ASSERT_EQ(many.gone.size(), single.gone.size());
-  for (std::size_t i = 0; i < many.gone.size(); ++i) EXPECT_EQ(many.gone[i].leaf, single.gone[i].leaf);
+  for (std::size_t i = 0; i < many.gone.size(); ++i) EXPECT_EQ(many.gone[i], single.gone[i]);
 }
 
 TEST(LeafOcclusion, DegenerateLeavesAreNoOnesLoss) {

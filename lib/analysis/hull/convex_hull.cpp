@@ -1,6 +1,7 @@
 #include "lib/analysis/hull/convex_hull.h"
 
 #include "lib/analysis/hull/exact_hull.h"
+#include "lib/analysis/hull/farthest.h"
 #include "lib/analysis/hull/frame.h"
 #include "lib/analysis/hull/hull_candidates.h"
 #include "lib/analysis/hull/hull_loss.h"
@@ -18,18 +19,6 @@ namespace {
 constexpr double k_flat = 0x1p-46;
 
 using Points = std::span<const Double3>;
-
-// The index of the point where `measure` is largest; the first of equals.
-template <class Measure>
-std::size_t farthest(Points points, Measure&& measure) {
-  std::size_t best = 0;
-  double most = -1;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double m = measure(points[i]);
-    if (m > most) most = m, best = i;
-  }
-  return best;
-}
 
 // Dimension and axes: the longest of a few distances, what is farthest from that line, from that plane.
 void find_dimension(Points points, ConvexHull& hull) {

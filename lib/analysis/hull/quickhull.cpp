@@ -1,6 +1,7 @@
 #include "lib/analysis/hull/quickhull.h"
 
 #include "lib/analysis/hull/exact_sign.h"
+#include "lib/analysis/hull/farthest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,31 +87,25 @@ class Quickhull {
   };
 
   template <class Measure>
-  std::uint32_t farthest(Measure&& measure) const {
-    std::uint32_t best = 0;
-    double most = -1;
-    for (std::uint32_t i = 0; i < points_.size(); ++i) {
-      const double m = measure(points_[i]);
-      if (m > most) most = m, best = i;
-    }
-    return best;
+  std::uint32_t farthest_by(Measure&& measure) const {
+    return static_cast<std::uint32_t>(farthest(points_, measure));
   }
 
   // Four points that are far from one another and not in one plane.
   bool find_tetrahedron(std::array<std::uint32_t, 4>& t) const {
     if (points_.size() < 4) return false;
-    t[0] = farthest([&](const Double3& p) { return length(p - points_[0]); });
+    t[0] = farthest_by([&](const Double3& p) { return length(p - points_[0]); });
     const Double3 a = points_[t[0]];
-    t[1] = farthest([&](const Double3& p) { return length(p - a); });
+    t[1] = farthest_by([&](const Double3& p) { return length(p - a); });
     const Double3 b = points_[t[1]], along = normalized(b - a);
-    t[2] = farthest([&](const Double3& p) { return length(cross(p - a, along)); });
+    t[2] = farthest_by([&](const Double3& p) { return length(cross(p - a, along)); });
     if (exactly_collinear(a, b, points_[t[2]])) {
       const auto off = [&](const Double3& p) { return !exactly_collinear(a, b, p); };
       t[2] = static_cast<std::uint32_t>(std::ranges::find_if(points_, off) - points_.begin());
       if (t[2] == points_.size()) return false;
     }
     const Plane plane(a, b, points_[t[2]]);
-    t[3] = farthest([&](const Double3& p) { return std::abs(plane.height(p)); });
+    t[3] = farthest_by([&](const Double3& p) { return std::abs(plane.height(p)); });
     if (plane.side(points_[t[3]]) == 0) {
       const auto off = [&](const Double3& p) { return plane.side(p) != 0; };
       t[3] = static_cast<std::uint32_t>(std::ranges::find_if(points_, off) - points_.begin());

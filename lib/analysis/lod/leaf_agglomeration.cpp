@@ -170,7 +170,7 @@ class Agglomeration {
     for (const Leaf& l : alive_) order.push_back(l.node);
     std::vector<std::uint32_t> together;
     for (std::size_t i = 0; i < o.gone.size(); ++i) {
-      const Leaf& leaf = alive_[o.gone[i].leaf];
+      const Leaf& leaf = alive_[o.gone[i]];
       shown -= double(elements_.source(leaf.node).size()), together.push_back(leaf.node);
       if (i + 1 < o.gone.size() && o.step(i + 1) == o.step(i)) continue;
       std::sort(together.begin(), together.end());

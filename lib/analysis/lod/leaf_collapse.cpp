@@ -216,7 +216,7 @@ class Collapse {
     double triangles = 0;
     std::vector<std::uint32_t> together;
     for (std::size_t i = 0; i < o.gone.size(); ++i) {
-      const std::uint32_t n = alive_[o.gone[i].leaf];
+      const std::uint32_t n = alive_[o.gone[i]];
       triangles += double(nodes_[n].drawn.triangles().size()), together.push_back(n);
       if (i + 1 < o.gone.size() && o.step(i + 1) == o.step(i)) continue;
       std::sort(together.begin(), together.end());
@@ -230,7 +230,7 @@ class Collapse {
   // What stays shows what all leaves do, and is drawn sooner.
   void see_as_source(const Occlusion& o) {
     std::vector<std::uint8_t> gone(alive_.size(), 0);
-    for (const Occlusion::Gone& g : o.gone) gone[g.leaf] = 1;
+    for (const std::uint32_t leaf : o.gone) gone[leaf] = 1;
     source_.clear(), source_faces_.clear();
     std::vector<std::size_t> first;
     for (std::size_t i = 0; i < alive_.size(); ++i) {

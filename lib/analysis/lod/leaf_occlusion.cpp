@@ -205,7 +205,7 @@ class Greedy {
             leaf, alive_, [](std::uint32_t) {}, [](std::uint32_t) {});
       if (lost > most) return;
       triangles_ -= faces;
-      out.gone.push_back({leaf, total_[leaf] > 0 ? float(sole_[leaf]) / float(total_[leaf]) : 0});
+      out.gone.push_back(leaf);
       for (Layers& view : std::span(layers_).first(deciding_))
         view.remove(
             leaf, alive_, [&](std::uint32_t l) { ++seen_[l]; }, [&](std::uint32_t l) { ++sole_[l]; });

@@ -32,11 +32,7 @@ struct Occlusion {
   // They leave in so many steps at most: what leaves together is stored in the order of the tree, in a third
   // of the bytes.
   static constexpr std::size_t k_steps = 256;
-  struct Gone {
-    std::uint32_t leaf;
-    float alone;  // the share of it that covered what no other leaf did when it went
-  };
-  std::vector<Gone> gone;  // in this order
+  std::vector<std::uint32_t> gone;  // leaves, in this order
   std::size_t step(std::size_t i) const { return i * std::min(k_steps, gone.size()) / gone.size(); }
   // Of how many pixels all leaves cover, how many are seen in front of others: the mean of both sides.
   double covered = 0, seen = 0;
