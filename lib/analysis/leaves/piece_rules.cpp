@@ -210,8 +210,7 @@ class Rules {
            scan_.alike(p) >= k_needles && s.size <= k_needle_size * height_;
   }
 
-  // --- tubes laid end to end
-  // --------------------------------------------------------------------------------
+  // --- tubes laid end to end ---------------------------------------------------------------
 
   bool is_chained(std::uint32_t p) const { return !chain_of_.empty() && chain_size_[chain_of_[p]] > 1; }
 

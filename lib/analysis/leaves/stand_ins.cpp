@@ -93,12 +93,8 @@ class Finder {
   std::map<std::string, std::uint32_t> lowest_;  // level of each name that has some
 };
 
-void keep_rows(std::vector<Triangle>& rows, std::span<const std::uint32_t> kept) {
-  if (rows.empty()) return;
-  for (std::size_t i = 0; i < kept.size(); ++i) rows[i] = rows[kept[i]];
-  rows.resize(kept.size());
-}
-void keep_rows(std::vector<std::uint32_t>& rows, std::span<const std::uint32_t> kept) {
+template <class Row>
+void keep_rows(std::vector<Row>& rows, std::span<const std::uint32_t> kept) {
   if (rows.empty()) return;
   for (std::size_t i = 0; i < kept.size(); ++i) rows[i] = rows[kept[i]];
   rows.resize(kept.size());

@@ -53,8 +53,9 @@ class Contacts {
       : mesh_(mesh), sets_(stems.size() + 1) {
     for (std::uint32_t i = 0; i < stems.size(); ++i) {
       const PlacedPiece& placed = scan.placed()[stems[i]];
-      const auto& [size, area] = std::pair(placed.shape.size, placed.shape.area);
-      const double reach = std::min(k_reach_of_size * size, area / (2 * std::numbers::pi * size));
+      const double size = placed.shape.size;
+      const double reach =
+          std::min(k_reach_of_size * size, placed.shape.area / (2 * std::numbers::pi * size));
       reach_.push_back(std::isfinite(reach) ? reach : 0);
       for (const std::uint32_t t : scan.triangles().of(placed.piece)) {
         stem_.push_back(i), triangle_.push_back(t);
