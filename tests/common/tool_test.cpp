@@ -258,6 +258,12 @@ TEST_F(Tool, AllOutputsAppearOnSuccess) {
   EXPECT_TRUE(read_text(file("d")).starts_with(file("out") + ": \\\n  " + file("in.obj")));
 }
 
+TEST_F(Tool, TheMemoryOfAReportIsNotThatOfWhatStartedTheTool) {
+  const std::vector<char> large(std::size_t{600} << 20, 1);
+  ASSERT_EQ(probe({"-q", "-o", file("out"), "--report", file("r.json")}).status, 0);
+  EXPECT_LT(json::parse(read_text(file("r.json")))["peak_bytes"].get<double>(), 0.75 * double(large.size()));
+}
+
 TEST_F(Tool, ADashIsStdout) {
   EXPECT_EQ(probe({"-q", "-o", "-"}).out, "probe\n");
   EXPECT_EQ(json::parse(probe({"-q", "--report", "-"}).out)["tool"], "common_probe");
