@@ -1,5 +1,7 @@
 #include "tests/tools/baked_oak.h"
 
+#include <sstream>
+
 #include <nlohmann/json.hpp>
 
 namespace copse {
@@ -80,6 +82,29 @@ TEST_F(LodbakeLevels, OneLevelBeginsAtFarAndContinuousDetailAtNear) {
   EXPECT_EQ(distances({"--discrete", "0.5", "--near", "10"}).levels, std::vector<double>{10});
   EXPECT_EQ(distances({"--discrete", "0.5", "--far", "100"}).levels, std::vector<double>{100});
   EXPECT_EQ(distances({"--discrete", "0.5", "--near", "0"}).levels, std::vector<double>{0}) << "everywhere";
+}
+
+// x, y and z of every vertex as z, x and y.
+std::string laid_down(const std::string& obj) {
+  std::istringstream lines(obj);
+  std::string out;
+  for (std::string line; std::getline(lines, line); out += line + "\n") {
+    if (!line.starts_with("v ")) continue;
+    std::istringstream numbers(line.substr(2));
+    std::string x, y, z;
+    numbers >> x >> y >> z;
+    line = "v " + z + " " + x + " " + y;
+  }
+  return out;
+}
+
+TEST_F(LodbakeLevels, ATreeThatLiesBeginsItsLevelsWhereOneThatStandsDoes) {
+  const Distances standing = distances({});
+  write_text(folder_.path() / "log.obj", laid_down(read_text(folder_.path() / "oak.obj")));
+  ASSERT_EQ(run_process({"treeprep", folder_.file("log.obj"), "-o", tree_, "-q"}).status, 0);
+  const Distances lying = distances({});
+  EXPECT_NEAR(lying.near / standing.near, 1, 0.02);
+  EXPECT_NEAR(lying.levels[0] / standing.levels[0], 1, 0.05);
 }
 
 }  // namespace

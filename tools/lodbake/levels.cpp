@@ -28,8 +28,8 @@ bool same(const LodLevel& a, const LodLevel& b) {
   return a.trunk_steps == b.trunk_steps && a.leaf_steps == b.leaf_steps;
 }
 
-double distance_of(double share, double height) {
-  return distance_for_pixels(height, k_full_pixels * std::sqrt(std::max(share, 1e-6)));
+double distance_of(double share, double size) {
+  return distance_for_pixels(size, k_full_pixels * std::sqrt(std::max(share, 1e-6)));
 }
 
 }  // namespace
@@ -45,10 +45,10 @@ std::vector<double> asked_shares(const Options& options) {
   return options.discrete;
 }
 
-void choose_levels(const Options& options, double height, LodSpectra& spectra, Context& context) {
+void choose_levels(const Options& options, double size, LodSpectra& spectra, Context& context) {
   if (spectra.schedule.empty()) return;
   const double full = std::max(1.0, static_cast<double>(spectra.schedule.front().triangles));
-  const auto natural = [&](const LodLevel& level) { return distance_of(level.triangles / full, height); };
+  const auto natural = [&](const LodLevel& level) { return distance_of(level.triangles / full, size); };
   for (LodLevel& knot : spectra.schedule) knot.distance = static_cast<float>(natural(knot));
   spectra.discrete = wanted(options, spectra);
   spectra.hysteresis = static_cast<float>(options.hysteresis / 100);
@@ -65,7 +65,7 @@ void choose_levels(const Options& options, double height, LodSpectra& spectra, C
           fmt::format("{}: level {} begins at {:.4g} m instead of {:.4g}, so that with a hysteresis "
                       "of {:.3g} % level {} is drawn somewhere",
                       options.input.string(), i + 1, distances[i], followed[i], options.hysteresis, i));
-  const double near = std::min(distance_of(1, height), distances.front());
+  const double near = std::min(distance_of(1, size), distances.front());
   spectra.near = static_cast<float>(options.near.value_or(near));
   spectra.far = std::max(spectra.near, spectra.discrete.back().distance);
 }

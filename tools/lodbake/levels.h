@@ -13,10 +13,10 @@ namespace copse::lodbake {
 double distance_for_pixels(double metres, double pixels);
 
 // Fills discrete, near, far and hysteresis of `spectra`, whose schedule is there. By themselves levels begin
-// where the tree, `height` metres high, is 1024 pixels x sqrt(share of its triangles) high on a screen of
-// 1080 lines that sees 60 degrees: pixels and triangles fall alike. What was named moves them, and so does
+// where the tree, `size` metres (above 0) along the longest side of its box, is 1024 pixels x sqrt(share of its
+// triangles) large on a screen of 1080 lines that sees 60 degrees: pixels and triangles fall alike. What was named moves them, and so does
 // the hysteresis (level_distances.h), which is warned of. `options` are checked.
-void choose_levels(const Options& options, double height, LodSpectra& spectra, Context& context);
+void choose_levels(const Options& options, double size, LodSpectra& spectra, Context& context);
 
 // The shares of the triangles that the discrete levels were asked to have; none with --discrete-error.
 std::vector<double> asked_shares(const Options& options);

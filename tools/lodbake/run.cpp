@@ -63,6 +63,13 @@ std::string number(double value) {
   return fmt::format("{:.4g}", value);
 }
 
+// What is low and wide, or lies on its side, is as large on the screen as what stands. What has no size at all is
+// seen from nowhere, but its distances still ascend.
+double largest_side(const FloatBox& box) {
+  const Float3 e = box.extent();
+  return std::max({double(e.x), double(e.y), double(e.z), 1e-12});
+}
+
 std::vector<LodLevel> with_full_detail(const LodSpectra& spectra) {
   std::vector<LodLevel> levels{spectra.schedule.empty() ? LodLevel{} : spectra.schedule.front()};
   levels.insert(levels.end(), spectra.discrete.begin(), spectra.discrete.end());
@@ -236,7 +243,7 @@ Result<void> run(const Options& options, Context& context) {
   LodSpectra* spectra = &baked->spectra;
   {
     Stage stage = context.stage("levels");
-    choose_levels(options, tree->header.bounds.extent().y, *spectra, context);
+    choose_levels(options, largest_side(tree->header.bounds), *spectra, context);
     report_levels(options, *tree, *spectra, context);
     // Where only one border was asked for, the other one is that of the levels.
     if (baked->cells && (options.near || options.far))
