@@ -3,6 +3,9 @@
 #include "lib/analysis/rings/taper.h"
 #include "tests/trunk/limb_maker.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 namespace copse {
@@ -43,6 +46,32 @@ TEST(Join, LeavesSiblingsApartThatBeginInOnePlace) {
   LimbSegments segments(limbs);
   join(limbs, segments);
   EXPECT_NE(limbs.limb[0], limbs.limb[3]);
+}
+
+TEST(Join, LeavesTwigsOfOneThicknessApartThatBeginInOnePlace) {
+  for (const double degrees : {5, 30, 85}) {
+    const double a = degrees * std::numbers::pi / 180;
+    Limbs limbs;
+    add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 1});
+    add_limb(limbs, {0, 0, 0}, {std::sin(a), std::cos(a), 0}, {1, 1, 1});
+    LimbSegments segments(limbs);
+    join(limbs, segments);
+    EXPECT_NE(limbs.limb[0], limbs.limb[3]) << degrees;
+  }
+}
+
+TEST(Join, LeavesOppositeTwigsApartThatBeginOnABoughsAxis) {
+  for (const double degrees : {100, 140, 180}) {
+    const double a = degrees / 2 * std::numbers::pi / 180;
+    Limbs limbs;
+    add_limb(limbs, {-3, 0, 0}, {1, 0, 0}, {0.5, 0.4, 0.4, 0.3, 0.3, 0.2, 0.2});
+    add_limb(limbs, {0.5, 0, 0}, {0, std::cos(a), std::sin(a)}, {0.1, 0.1, 0.1});
+    add_limb(limbs, {0.5, 0, 0}, {0, std::cos(a), -std::sin(a)}, {0.1, 0.1, 0.1});
+    LimbSegments segments(limbs);
+    join(limbs, segments);
+    EXPECT_NE(limbs.limb[7], limbs.limb[10]) << degrees;
+    EXPECT_NE(limbs.limb[0], limbs.limb[7]) << degrees;
+  }
 }
 
 TEST(Join, LeavesRingsApartThatDifferInPlaceOrThickness) {
@@ -95,10 +124,11 @@ TEST(Join, MergesWithARingThatABranchGrowsFromWhereBothLieInOnePlane) {
   EXPECT_EQ(limbs.limb[0], limbs.limb[3]);
 }
 
-TEST(Join, DoesNotCloseALoopOfTwoTubesInOnePlace) {
+TEST(Join, DoesNotCloseALoopOfTwoTubes) {
   Limbs limbs;
-  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 1});
-  add_limb(limbs, {0, 0, 0}, {0, 1, 0}, {1, 1, 1});
+  add_limb(limbs, {0, 0, 0}, {1, 0, 0}, {1, 1, 1});
+  add_limb(limbs, {0, 0, 0}, {1, 0, 0}, {1, 1, 1});
+  limbs.centre[1].y = 1, limbs.centre[4].y = -1;
   LimbSegments segments(limbs);
   join(limbs, segments);
   EXPECT_EQ(limbs.limb[0], limbs.limb[3]);

@@ -12,6 +12,10 @@
 namespace copse {
 namespace {
 
+// A limb amid which others begin is so many times as thick as they are, and they so near to its axis, radii;
+// the lesser where they go on from one another in one line, as pieces of a tube do.
+constexpr double k_amid_thicker = 1.25, k_amid_axis = 0.25, k_amid_axis_straight = 0.01;
+
 std::vector<std::array<std::uint32_t, 2>> segment_rings(const Limbs& limbs) {
   std::vector<std::array<std::uint32_t, 2>> rings;
   std::vector<std::uint8_t> has_child(limbs.rings(), 0);
@@ -78,6 +82,25 @@ bool go_on(const Limbs& limbs, std::span<const std::uint32_t> next, std::uint32_
   const double on_a = dot(limbs.normal[a], limbs.centre[next[a]] - limbs.centre[a]);
   const double on_b = dot(limbs.normal[a], limbs.centre[next[b]] - limbs.centre[b]);
   return on_a * on_b < 0;
+}
+
+// Whether two limbs that end in one place would be one that turns back: then they begin there side by side.
+bool fold(const Limbs& limbs, std::span<const std::uint32_t> next, std::uint32_t a, std::uint32_t b) {
+  if (next[a] == k_none || next[b] == k_none) return false;
+  return dot(limbs.centre[next[a]] - limbs.centre[a], limbs.centre[next[b]] - limbs.centre[b]) > 0;
+}
+
+// Whether limbs that end in one place begin amid a third one, about its axis, as opposite twigs of a bough
+// do. `found`: what is near to that place.
+bool begin_amid(const LimbSegments& segments, std::span<const Nearness> found, double radius,
+                std::uint32_t limb, std::span<const std::uint8_t> is_end, bool straight) {
+  const double from_axis = straight ? k_amid_axis_straight : k_amid_axis;
+  return std::any_of(found.begin(), found.end(), [&](const Nearness& near) {
+    if (segments.tree.segments()[near.segment].limb == limb) return false;
+    const auto& [a, b] = segments.rings[near.segment];
+    if ((near.t <= 0 && is_end[a] != 0) || (near.t >= 1 && is_end[b] != 0)) return false;
+    return near.radius > k_amid_thicker * radius && near.distance <= from_axis * near.radius;
+  });
 }
 
 // The ends at which their limbs clearly begin: no other end may be the base.
@@ -156,8 +179,11 @@ void join(Limbs& limbs, LimbSegments& segments) {
         if (!is_end[ring] && !lie_alike(limbs, end, ring)) continue;
         // Two limbs that begin in one place are siblings, and grow side by side from something else.
         if (is_start[end] && is_start[ring]) continue;
-        const double thick = std::max(limbs.diameter[end], limbs.diameter[ring]) / 2;
         const bool wide = go_on(limbs, next, end, ring, is_end[ring] != 0);
+        if (is_end[ring] && (fold(limbs, next, end, ring) ||
+                             begin_amid(segments, found, radius, limbs.limb[ring], is_end, wide)))
+          continue;
+        const double thick = std::max(limbs.diameter[end], limbs.diameter[ring]) / 2;
         const double reach = wide ? seam : k_join_tolerance * thick;
         const double apart = wide && is_end[ring] ? facing : reach;
         if (coincide(limbs, end, ring, apart, reach)) joints.merge(end, ring);
