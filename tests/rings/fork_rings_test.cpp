@@ -1,5 +1,6 @@
 #include "lib/analysis/rings/fork_rings.h"
 
+#include "tests/trunk/box_trees.h"
 #include "tests/trunk/welded_meshes.h"
 
 #include <cmath>
@@ -68,6 +69,36 @@ TEST(ForkRings, OfLimbsThatGrowOutOfAQuadAreExact) {
     const WeldedMesh tree = seated_limbs(10, seats, 4);
     expect_exact(tree.mesh, tree.rings);
     expect_exact(shuffled(tree.mesh, 1), tree.rings);
+  }
+}
+
+void expect_exact(const BoxTree& shape) {
+  const BoxTreeMesh tree = box_tree(shape);
+  for (const TrunkMesh& mesh : {tree.mesh, shuffled(tree.mesh, shape.seed)}) {
+    const Surface s = surface_of(mesh);
+    const RingReading reading = read_fork_rings(s);
+    EXPECT_EQ(breach(reading.hierarchy, s.positions.size(), s.triangles.size()), "");
+    const Exactness e = measure(tree.truth, reading.hierarchy);
+    EXPECT_TRUE(e.exact()) << "seed " << shape.seed << ": " << e.found << " of " << e.rings << " rings, "
+                           << e.parents_right << " parents, " << e.extra << " extra: " << e.first_fault;
+    EXPECT_EQ(std::ranges::count(reading.hierarchy.segment_of, k_none), 0) << shape.seed;
+  }
+}
+
+TEST(ForkRings, OfFacesThatWerePulledOutOfAClosedTubeAreExact) {
+  for (const std::uint32_t sides : {5u, 6u, 8u, 12u, 24u}) {
+    for (const bool inset : {false, true}) {
+      expect_exact({.sides = sides, .depth = 1, .share = 1.0 / sides, .inset = inset, .seed = sides});
+    }
+  }
+}
+
+TEST(ForkRings, OfFacesThatWerePulledOutOfWhatWasPulledOutAreExactWithEveryEnd) {
+  for (const bool open : {false, true}) {
+    for (const bool inset : {false, true}) {
+      for (std::uint32_t seed = 1; seed < 4; ++seed)
+        expect_exact({.depth = 2, .share = 0.05, .open = open, .inset = inset, .seed = seed});
+    }
   }
 }
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace copse {
 
@@ -34,15 +33,16 @@ bool holds(const Triangle& t, std::uint32_t a, std::uint32_t b) {
 BandGrowth::BandGrowth(const Surface& surface, Bands& bands)
     : surface_(surface),
       bands_(bands),
-      triangles_(surface.triangles),
-      across_(surface.across),
+      patched_(surface),
+      ends_(surface),
+      band_of_(bands.band_of),
       claimed_(surface.triangles.size(), 0),
       seen_(3 * surface.triangles.size(), 0),
       mark_(surface.positions.size(), 0),
       degree_(surface.positions.size(), 0) {
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     claimed_[t] = bands.band_of[t] != k_none;
-    for (const std::uint32_t v : triangles_[t]) ++degree_[v];
+    for (const std::uint32_t v : surface.triangles[t]) ++degree_[v];
   }
   for (const std::uint32_t t : bands.lids) claimed_[t] = 1;
 }
@@ -63,16 +63,16 @@ bool BandGrowth::walk(const Edge& start) {
   Edge e = start;
   std::size_t steps = 0;
   do {
-    seen_[3 * e.triangle + static_cast<std::size_t>(edge_between(triangles_[e.triangle], e.a, e.b))] = walks_;
+    seen_[3 * e.triangle + static_cast<std::size_t>(edge_between(triangle(e.triangle), e.a, e.b))] = walks_;
     step_.ring.push_back(e.a);
     step_.near.push_back(e);
-    std::uint32_t t = e.triangle, x = third_corner(triangles_[t], e.a, e.b);
+    std::uint32_t t = e.triangle, x = third_corner(triangle(t), e.a, e.b);
     std::uint32_t n = beyond(t, e.b, x);
     step_.corner |= !unread(n);
     while (unread(n)) {
       if (step_.next.empty() || step_.next.back() != x) step_.next.push_back(x);
       step_.triangles.push_back(n);
-      const std::uint32_t y = third_corner(triangles_[n], e.b, x);
+      const std::uint32_t y = third_corner(triangle(n), e.b, x);
       t = n;
       n = beyond(n, e.b, y);
       if (unread(n)) step_.far.push_back({t, x, y, 0});
@@ -109,10 +109,19 @@ bool BandGrowth::is_gentle() const {
   return std::abs(a.radius - b.radius) <= distance(a.centre, b.centre);
 }
 
-void BandGrowth::commit() {
-  bands_.add(step_.ring, step_.next, step_.triangles);
-  for (const std::uint32_t t : step_.triangles) claimed_[t] = 1;
+void BandGrowth::claim(std::span<const std::uint32_t> ring, std::span<const std::uint32_t> next,
+                       std::span<const std::uint32_t> triangles) {
+  for (const std::uint32_t t : triangles) {
+    claimed_[t] = 1;
+    band_of_[t] = bands_.count();
+    if (patched_.is_stand_in(t)) stand_ins_of_[bands_.count()].push_back(t);
+  }
+  bands_.add(ring, next, triangles);
   committed_at_ = walks_;
+}
+
+void BandGrowth::commit() {
+  claim(step_.ring, step_.next, step_.triangles);
   for (const Edge& e : step_.far) push(e.triangle, e.a, e.b, limit_after(step_.next.size()));
 }
 
@@ -122,15 +131,12 @@ void BandGrowth::commit() {
 bool BandGrowth::is_expected() const {
   std::size_t longest = 0, borders = 0;
   for (const Edge& e : step_.near) {
-    const std::uint32_t behind =
-        across_[e.triangle][static_cast<std::size_t>(edge_between(triangles_[e.triangle], e.a, e.b))];
-    borders += behind == k_none;
-    if (behind >= bands_.band_of.size()) continue;
-    if (bands_.band_of[behind] == k_none) {  // claimed for a lid
-      ++borders;
+    const std::uint32_t behind = beyond(e.triangle, e.a, e.b);
+    const std::uint32_t band = behind == k_none ? k_none : band_of_[behind];
+    if (!is_band(band)) {  // a border, or a lid
+      borders += behind == k_none || !patched_.is_stand_in(behind);
       continue;
     }
-    const std::uint32_t band = bands_.band_of[behind];
     longest = std::max({longest, bands_.ring(2 * band).size(), bands_.ring(2 * band + 1).size()});
   }
   return borders == step_.ring.size() || step_.ring.size() <= longest;
@@ -141,7 +147,7 @@ void BandGrowth::read_regular() {
     const Edge e = queue_.front();
     queue_.pop_front();
     if (!unread(e.triangle)) continue;
-    const auto edge = static_cast<std::size_t>(edge_between(triangles_[e.triangle], e.a, e.b));
+    const auto edge = static_cast<std::size_t>(edge_between(triangle(e.triangle), e.a, e.b));
     if (seen_[3 * e.triangle + edge] > committed_at_) continue;  // nothing has changed since
     if (!walk(e) || !is_strip()) continue;
     const double k = static_cast<double>(step_.ring.size()), l = static_cast<double>(step_.next.size());
@@ -168,8 +174,8 @@ void BandGrowth::start_at_borders() {
   ++walks_;
   for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
     for (std::size_t e = 0; e < 3; ++e) {
-      if (!unread(t) || across_[t][e] != k_none || seen_[3 * t + e] != 0) continue;
-      const Edge start{t, triangles_[t][(e + 1) % 3], triangles_[t][e], k_no_limit};
+      if (!unread(t) || patched_.across(t, e) != k_none || seen_[3 * t + e] != 0) continue;
+      const Edge start{t, triangle(t)[(e + 1) % 3], triangle(t)[e], k_no_limit};
       walk(start);  // marks the whole border as seen
       queue_.push_back(start);
     }
@@ -181,10 +187,10 @@ void BandGrowth::start_at_borders() {
 bool BandGrowth::collect_fan(std::uint32_t v, std::uint32_t start, Fan& fan) {
   fan.link.clear(), fan.triangles.clear();
   fan.angle = 0;
-  std::uint32_t t = start, x = third_corner(triangles_[t], v,
-                                            v == triangles_[t][0] ? triangles_[t][1] : triangles_[t][0]);
+  std::uint32_t t = start,
+                x = third_corner(triangle(t), v, v == triangle(t)[0] ? triangle(t)[1] : triangle(t)[0]);
   do {
-    const std::uint32_t y = third_corner(triangles_[t], v, x);
+    const std::uint32_t y = third_corner(triangle(t), v, x);
     fan.link.push_back(x);
     fan.triangles.push_back(t);
     const Double3 p = surface_.positions[v];
@@ -221,42 +227,19 @@ bool BandGrowth::continues_behind(const Fan& fan, int rings) {
 bool BandGrowth::is_point(std::uint32_t v, const Fan& fan, Points which) {
   const int rings = which == Points::followed_by_a_ring ? 1 : 2;
   if (fan.angle <= k_point_angle)
-    return is_round(fan.link) && (which == Points::all || continues_behind(fan, rings));
+    return ends_.is_round(fan.link) && (which == Points::all || continues_behind(fan, rings));
   // The ring behind the link has as many vertices as the link when the link's have five triangles on average.
   std::uint64_t degrees = 0;
   for (const std::uint32_t x : fan.link) degrees += degree_[x];
-  return degree_[v] == fan.link.size() && degrees == 5 * fan.link.size() && is_round(fan.link) &&
-         continues_behind(fan, rings) && !is_lid_corner(v);
-}
-
-// Whether a lid fans out from this corner. What lies round such a corner, across the lid and down the side,
-// looks like a ring round a blunt point, and the slanted rings behind it like a tube.
-bool BandGrowth::is_lid_corner(std::uint32_t v) {
-  if (lid_corner_.empty()) {
-    lid_corner_.assign(surface_.positions.size(), 0);
-    std::vector<std::uint32_t> corners;
-    for (const Lid& lid : lids_of(k_lid_smooth_cosines[0])) {
-      if (lid.middle != k_none) continue;
-      corners.clear();
-      for (const std::uint32_t t : lid.triangles) {
-        corners.insert(corners.end(), triangles_[t].begin(), triangles_[t].end());
-      }
-      std::ranges::sort(corners);
-      for (std::size_t i = 1; i < corners.size(); ++i) {
-        if (corners[i] == corners[i - 1]) lid_corner_[corners[i]] = 1;
-      }
-    }
-  }
-  return lid_corner_[v] != 0;
+  return degree_[v] == fan.link.size() && degrees == 5 * fan.link.size() && ends_.is_round(fan.link) &&
+         continues_behind(fan, rings) && !ends_.is_lid_corner(v);
 }
 
 void BandGrowth::read_fan(std::uint32_t v, const Fan& fan) {
-  bands_.add(fan.link, std::span(&v, 1), fan.triangles);
-  for (const std::uint32_t t : fan.triangles) claimed_[t] = 1;
+  claim(fan.link, std::span(&v, 1), fan.triangles);
   for (std::size_t i = 0; i < fan.link.size(); ++i) {
     push(fan.triangles[i], fan.link[i], fan.link[(i + 1) % fan.link.size()], limit_after(fan.link.size()));
   }
-  committed_at_ = walks_;
 }
 
 // The first triangle that is not read at each vertex.
@@ -264,7 +247,7 @@ std::vector<std::uint32_t> BandGrowth::first_unread() const {
   std::vector<std::uint32_t> first(surface_.positions.size(), k_none);
   for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
     if (!unread(t)) continue;
-    for (const std::uint32_t v : triangles_[t]) first[v] = std::min(first[v], t);
+    for (const std::uint32_t v : triangle(t)) first[v] = std::min(first[v], t);
   }
   return first;
 }
@@ -277,66 +260,91 @@ void BandGrowth::start_at_points(Points which) {
   }
 }
 
-// What may be the end of a limb; found once for each angle.
-std::vector<Lid>& BandGrowth::lids_of(double smooth) {
-  for (auto& [angle, lids] : lids_) {
-    if (angle == smooth) return lids;
-  }
-  std::vector<SharedEdge> edges;
-  for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
-    for (std::size_t e = 0; e < 3; ++e) {
-      const std::uint32_t n = surface_.across[t][e];
-      if (n != k_none && n > t)
-        edges.push_back({surface_.triangles[t][e], surface_.triangles[t][(e + 1) % 3], t, n});
-    }
-  }
-  std::vector<Lid> lids = find_lids(surface_.positions, surface_.triangles, edges, smooth);
-  std::erase_if(lids, [&](const Lid& lid) { return !may_close(lid); });
-  return lids_.emplace_back(smooth, std::move(lids)).second;
-}
-
-void BandGrowth::start_at_lids(double smooth, int rings) {
-  for (Lid& lid : lids_of(smooth)) {
-    if (!std::ranges::all_of(lid.triangles, [&](std::uint32_t t) { return unread(t); })) continue;
-    const auto at_start = [&](std::uint32_t t) { return holds(triangles_[t], lid.rim[0], lid.rim[1]); };
-    std::ranges::stable_partition(lid.triangles, at_start);
-    if (continues_behind({lid.rim, lid.triangles, 0}, rings)) close_with_lid(lid);
+void BandGrowth::start_at_lids(double smooth, int rings, Lids which) {
+  for (const Lid& lid : ends_.lids(smooth)) {
+    if (!ends_.may_close(lid, which) || !is_unread(lid)) continue;
+    Fan fan{lid.rim, lid.triangles, 0};
+    const auto at_start = [&](std::uint32_t t) { return holds(triangle(t), lid.rim[0], lid.rim[1]); };
+    std::ranges::stable_partition(fan.triangles, at_start);
+    if (!continues_behind(fan, rings)) continue;
+    close_with_lid(lid);
+    push_rim(lid);
   }
 }
 
-// Whether vertices may lie round a limb: their polygon is about as round as one of so many corners can be.
-// What surrounds a corner, and a strip along a limb's side, is long.
-bool BandGrowth::is_round(std::span<const std::uint32_t> ring) const {
-  const Double3 origin = surface_.positions[ring[0]];
-  Double3 twice_area;
-  double way_round = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Double3 a = surface_.positions[ring[i]] - origin;
-    const Double3 b = surface_.positions[ring[(i + 1) % ring.size()]] - origin;
-    twice_area += cross(a, b);
-    way_round += distance(a, b);
-  }
-  const double k = static_cast<double>(ring.size());
-  const double of_regular = 1 / (4 * k * std::tan(std::numbers::pi / k));  // area over way round squared
-  return length(twice_area) / 2 >= k_ring_roundness * of_regular * way_round * way_round;
+bool BandGrowth::is_unread(const Lid& lid) const {
+  return std::ranges::all_of(lid.triangles, [&](std::uint32_t t) { return unread(t); });
 }
 
-// Whether a patch may be the end of a limb; a vertex in its middle must not draw the limb out to a point.
-bool BandGrowth::may_close(const Lid& lid) const {
-  if (!is_round(lid.rim)) return false;
-  const RingCircle c = ring_circle(surface_.positions, lid.rim);
-  return lid.middle == k_none || distance(surface_.positions[lid.middle], c.centre) < k_cap_height * c.radius;
-}
-
-void BandGrowth::close_with_lid(const Lid& lid) {
+// Its number among the bands and lids.
+std::uint32_t BandGrowth::close_with_lid(const Lid& lid) {
+  const std::uint32_t number = k_first_lid + static_cast<std::uint32_t>(closing_.size());
+  closing_.push_back(lid);
   bands_.lids.insert(bands_.lids.end(), lid.triangles.begin(), lid.triangles.end());
-  for (const std::uint32_t t : lid.triangles) claimed_[t] = 1;
+  for (const std::uint32_t t : lid.triangles) claimed_[t] = 1, band_of_[t] = number;
+  committed_at_ = walks_;
+  return number;
+}
+
+// Undoes the last close_with_lid().
+void BandGrowth::open_again() {
+  for (const std::uint32_t t : closing_.back().triangles) claimed_[t] = 0, band_of_[t] = k_none;
+  bands_.lids.resize(bands_.lids.size() - closing_.back().triangles.size());
+  closing_.pop_back();
+}
+
+void BandGrowth::push_rim(const Lid& lid) {
   for (const std::uint32_t t : lid.triangles) {
     for (std::size_t e = 0; e < 3; ++e) {
-      push(t, triangles_[t][e], triangles_[t][(e + 1) % 3], limit_after(lid.rim.size()));
+      push(t, triangle(t)[e], triangle(t)[(e + 1) % 3], limit_after(lid.rim.size()));
     }
   }
-  committed_at_ = walks_;
+}
+
+void BandGrowth::start_at_lids_beside_limbs(double smooth) {
+  for (const std::size_t most : {std::size_t{1}, k_widest_collar}) {
+    for (const Lid& lid : ends_.lids(smooth)) {
+      if (lid.rim.size() > k_widest_collar || !ends_.may_close(lid, Lids::any) || !is_unread(lid)) continue;
+      const std::uint32_t number = close_with_lid(lid);
+      if (read_past_limbs(2 * number, most)) {
+        read_regular();
+      } else {
+        open_again();
+      }
+    }
+  }
+}
+
+void BandGrowth::close_rings() {
+  std::vector<std::uint8_t> seen(surface_.triangles.size(), 0);
+  std::vector<std::uint32_t> patch;
+  for (std::uint32_t start = 0; start < seen.size(); ++start) {
+    if (seen[start] || !unread(start)) continue;
+    patch.assign(1, start);
+    seen[start] = 1;
+    std::size_t rim = 0;
+    std::uint32_t band = k_none;
+    bool is_lid = true;
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      for (std::size_t e = 0; e < 3; ++e) {
+        const std::uint32_t n = patched_.across(patch[i], e);
+        if (unread(n)) {
+          is_lid &= !patched_.is_stand_in(n);
+          if (patched_.is_stand_in(n) || seen[n]) continue;
+          seen[n] = 1;
+          patch.push_back(n);
+          continue;
+        }
+        ++rim;
+        if (band == k_none && n != k_none) band = band_of_[n];
+        is_lid &= n != k_none && band_of_[n] == band && is_band(band);
+      }
+    }
+    if (!is_lid || rim != patch.size() + 2) continue;
+    if (bands_.ring(2 * band).size() != rim && bands_.ring(2 * band + 1).size() != rim) continue;
+    bands_.lids.insert(bands_.lids.end(), patch.begin(), patch.end());
+    for (const std::uint32_t t : patch) claimed_[t] = 1;
+  }
 }
 
 void BandGrowth::close_fans() {
@@ -349,9 +357,9 @@ void BandGrowth::close_fans() {
     bool one_band = true;
     for (std::size_t i = 0; i < fan.link.size(); ++i) {
       const std::uint32_t n = beyond(fan.triangles[i], fan.link[i], fan.link[(i + 1) % fan.link.size()]);
-      if (n >= bands_.band_of.size() || bands_.band_of[n] == k_none) continue;
-      one_band &= band == k_none || band == bands_.band_of[n];
-      band = bands_.band_of[n];
+      if (n == k_none || !is_band(band_of_[n])) continue;
+      one_band &= band == k_none || band == band_of_[n];
+      band = band_of_[n];
       ++bordered;
     }
     if (!one_band || 2 * bordered < fan.link.size()) continue;
@@ -368,16 +376,31 @@ void BandGrowth::start_at_bands(std::uint32_t first) {
   for (std::uint32_t b = first; b < bands_.count(); ++b) {
     const std::size_t k = bands_.ring(2 * b).size() + bands_.ring(2 * b + 1).size();
     for (std::uint32_t i = bands_.first_triangle[b]; i < bands_.first_triangle[b + 1]; ++i) {
-      const Triangle t = triangles_[bands_.triangles[i]];
+      const Triangle t = triangle(bands_.triangles[i]);
       for (std::size_t e = 0; e < 3; ++e) push(bands_.triangles[i], t[e], t[(e + 1) % 3], limit_after(k));
     }
   }
   committed_at_ = walks_;
 }
 
+std::span<const std::uint32_t> BandGrowth::polygon_of(std::uint32_t ring) const {
+  return is_band(ring / 2) ? bands_.ring(ring)
+                           : std::span<const std::uint32_t>(closing_[ring / 2 - k_first_lid].rim);
+}
+
+// Of a band, its stand-ins last, or of a lid.
+std::vector<std::uint32_t> BandGrowth::triangles_of(std::uint32_t band) const {
+  if (!is_band(band)) return closing_[band - k_first_lid].triangles;
+  const auto own = bands_.triangles_of(band);
+  std::vector<std::uint32_t> triangles(own.begin(), own.end());
+  if (const auto more = stand_ins_of_.find(band); more != stand_ins_of_.end())
+    triangles.insert(triangles.end(), more->second.begin(), more->second.end());
+  return triangles;
+}
+
 std::vector<BandGrowth::Side> BandGrowth::sides_of(std::uint32_t ring) const {
-  const auto polygon = bands_.ring(ring);
-  const auto triangles = bands_.triangles_of(ring / 2);
+  const auto polygon = polygon_of(ring);
+  const std::vector<std::uint32_t> triangles = triangles_of(ring / 2);
   std::vector<Side> sides;
   sides.reserve(polygon.size());
   std::size_t at = 0;  // a band's triangles go round with its rings: the next side's is mostly the next
@@ -386,49 +409,27 @@ std::vector<BandGrowth::Side> BandGrowth::sides_of(std::uint32_t ring) const {
     for (std::size_t tried = 0; tried < triangles.size(); ++tried, ++at) {
       if (at >= triangles.size()) at = 0;
       const std::uint32_t t = triangles[at];
-      if (!holds(triangles_[t], a, b)) continue;
-      sides.push_back({a, b, t, across_[t][static_cast<std::size_t>(edge_between(triangles_[t], a, b))]});
+      if (!holds(triangle(t), a, b)) continue;
+      sides.push_back({a, b, t, beyond(t, a, b)});
       break;
     }
   }
   return sides;
 }
 
-// Puts triangles into the hole that a ring's sides enclose. What lay across a side lies across them now.
-void BandGrowth::stand_in(std::span<const Side> sides, std::span<const Triangle> triangles) {
-  const auto first = static_cast<std::uint32_t>(triangles_.size());
-  for (const Triangle& t : triangles) {
-    triangles_.push_back(t);
-    across_.push_back({k_none, k_none, k_none});
-    claimed_.push_back(0);
-    seen_.insert(seen_.end(), 3, 0);
-  }
-  for (std::uint32_t t = first; t < triangles_.size(); ++t) {
-    for (std::size_t e = 0; e < 3; ++e) {
-      const std::uint32_t a = triangles_[t][e], b = triangles_[t][(e + 1) % 3];
-      for (std::uint32_t u = first; u < triangles_.size(); ++u) {
-        if (u != t && holds(triangles_[u], a, b)) across_[t][e] = u;
-      }
-      for (const Side& s : sides) {
-        if (!((s.a == a && s.b == b) || (s.a == b && s.b == a))) continue;
-        across_[t][e] = s.outside;
-        if (s.outside == k_none) continue;
-        beyond(s.outside, a, b) = t;
-        beyond(s.inside, a, b) = k_none;
-      }
-    }
-  }
+void BandGrowth::stand_in(std::span<const Side> hole, std::span<const Triangle> triangles) {
+  patched_.close(hole, triangles);
+  claimed_.resize(patched_.size(), 0);
+  band_of_.resize(claimed_.size(), k_none);
+  seen_.resize(3 * claimed_.size(), 0);
 }
 
 // Undoes the last stand_in(), whose triangles nothing has claimed.
-void BandGrowth::take_back(std::span<const Side> sides) {
-  for (const Side& s : sides) {
-    if (s.outside == k_none) continue;
-    beyond(s.outside, s.a, s.b) = s.inside;
-    beyond(s.inside, s.a, s.b) = s.outside;
-  }
-  const std::size_t kept = triangles_.size() - (sides.size() - 2);
-  triangles_.resize(kept), across_.resize(kept), claimed_.resize(kept), seen_.resize(3 * kept);
+void BandGrowth::take_back(std::span<const Side> hole) {
+  patched_.reopen(hole);
+  claimed_.resize(patched_.size());
+  band_of_.resize(claimed_.size());
+  seen_.resize(3 * claimed_.size());
 }
 
 void BandGrowth::fill(std::uint32_t ring) {
@@ -437,16 +438,16 @@ void BandGrowth::fill(std::uint32_t ring) {
   for (const std::uint32_t v : bands_.ring(ring)) corners.push_back({v, k_none});
   for (HoleCorner& corner : corners) {
     for (const Side& s : sides) {
-      if (s.a == corner.vertex && s.outside < bands_.band_of.size()) corner.band = bands_.band_of[s.outside];
+      if (s.a == corner.vertex && s.outside != k_none) corner.band = band_of_[s.outside];
     }
   }
-  const auto first = static_cast<std::uint32_t>(triangles_.size());
+  const auto first = static_cast<std::uint32_t>(patched_.size());
   const std::size_t size = corners.size();
   stand_in(sides, fill_polygon(surface_.positions, std::move(corners)));
-  for (std::uint32_t t = first; t < triangles_.size(); ++t) {
+  for (std::uint32_t t = first; t < patched_.size(); ++t) {
     for (std::size_t e = 0; e < 3; ++e) {
-      if (!unread(across_[t][e])) {
-        queue_.push_back({t, triangles_[t][e], triangles_[t][(e + 1) % 3], limit_after(8 * size)});
+      if (!unread(patched_.across(t, e))) {
+        queue_.push_back({t, triangle(t)[e], triangle(t)[(e + 1) % 3], limit_after(8 * size)});
       }
     }
   }
@@ -460,9 +461,8 @@ std::vector<std::uint32_t> BandGrowth::limbs_beyond(std::span<const Side> sides)
   for (const Side& s : sides) {
     if (s.outside == k_none) return {};
     is_open |= unread(s.outside);
-    if (unread(s.outside) || s.outside >= bands_.band_of.size()) continue;
-    if (bands_.band_of[s.outside] == k_none) continue;  // a lid
-    const std::uint32_t first = 2 * bands_.band_of[s.outside];
+    if (!is_band(band_of_[s.outside])) continue;  // unread, or a lid
+    const std::uint32_t first = 2 * band_of_[s.outside];
     for (const std::uint32_t r : {first, first + 1}) {
       const auto other = bands_.ring(r);
       if (other.size() < 3 || other.size() > k_widest_collar) continue;
@@ -478,9 +478,7 @@ std::vector<std::uint32_t> BandGrowth::limbs_beyond(std::span<const Side> sides)
 bool BandGrowth::close_strip(std::uint32_t ring, std::uint32_t band) {
   const std::vector<Side> sides = sides_of(ring);
   std::vector<std::uint8_t> on_ring;
-  for (const Side& s : sides) {
-    on_ring.push_back(s.outside < bands_.band_of.size() && bands_.band_of[s.outside] == band);
-  }
+  for (const Side& s : sides) on_ring.push_back(s.outside != k_none && band_of_[s.outside] == band);
   if (sides.size() != bands_.ring(ring).size()) return false;
   const std::vector<Triangle> strip = strip_across(surface_.positions, bands_.ring(ring), on_ring);
   if (strip.empty()) return false;
@@ -505,7 +503,7 @@ bool BandGrowth::close_strip_at_border(std::span<const Side> sides, std::uint32_
 
 // Reads the band from a border that a stand-in lies at, if it keeps the number of vertices.
 bool BandGrowth::read_from_border(const Side& border, std::uint32_t first_stand_in, std::size_t k) {
-  while (!holds(triangles_[first_stand_in], border.a, border.b)) ++first_stand_in;
+  while (!holds(triangle(first_stand_in), border.a, border.b)) ++first_stand_in;
   if (!walk({first_stand_in, border.a, border.b, limit_after(k)}) || !is_strip() ||
       step_.next.size() != step_.ring.size() || !is_expected()) {
     return false;
@@ -515,7 +513,7 @@ bool BandGrowth::read_from_border(const Side& border, std::uint32_t first_stand_
 }
 
 bool BandGrowth::read_past_limb_at_border(std::uint32_t ring, std::span<const Side> sides) {
-  const auto first = static_cast<std::uint32_t>(triangles_.size());
+  const auto first = static_cast<std::uint32_t>(patched_.size());
   const auto border = std::ranges::find(sides, k_none, &Side::outside);
   if (border == sides.end() || !close_strip_at_border(sides, ring)) return false;
   if (read_from_border(*border, first, sides.size())) return true;
@@ -543,7 +541,7 @@ void BandGrowth::read_past_limbs_at_borders() {
   std::ranges::sort(rings);
   for (auto i = rings.begin(); i != rings.end();) {
     const auto end = std::find_if(i, rings.end(), [&](const auto& r) { return r.first != i->first; });
-    const auto first = static_cast<std::uint32_t>(triangles_.size());
+    const auto first = static_cast<std::uint32_t>(patched_.size());
     std::vector<std::vector<Side>> closed;
     std::size_t k = 0;
     for (; i != end; ++i) {
@@ -573,9 +571,8 @@ bool BandGrowth::read_past_limbs(std::uint32_t ring, std::size_t most) {
   bool good = closed.size() == limbs.size();
   if (good) {
     const Side s = sides_of(ring)[0];
-    good = unread(s.outside) && walk({s.outside, s.a, s.b, limit_after(bands_.ring(ring).size())}) &&
-           is_strip() && step_.ring.size() == bands_.ring(ring).size() &&
-           step_.next.size() == step_.ring.size();
+    good = unread(s.outside) && walk({s.outside, s.a, s.b, limit_after(round.size())}) && is_strip() &&
+           step_.ring.size() == round.size() && step_.next.size() == step_.ring.size();
   }
   if (good) {
     commit();
@@ -589,8 +586,8 @@ bool BandGrowth::read_past_limbs(std::uint32_t ring, std::size_t most) {
 }
 
 bool BandGrowth::borders_unread(std::uint32_t band) const {
-  return std::ranges::any_of(bands_.triangles_of(band), [&](std::uint32_t t) {
-    return std::ranges::any_of(across_[t], [&](std::uint32_t n) { return unread(n); });
+  return std::ranges::any_of(triangles_of(band), [&](std::uint32_t t) {
+    return unread(patched_.across(t, 0)) || unread(patched_.across(t, 1)) || unread(patched_.across(t, 2));
   });
 }
 
@@ -644,8 +641,8 @@ double BandGrowth::open_share(std::uint32_t ring) {
   for (std::uint32_t i = bands_.first_triangle[band]; i < bands_.first_triangle[band + 1]; ++i) {
     const std::uint32_t t = bands_.triangles[i];
     for (std::size_t e = 0; e < 3; ++e) {
-      if (mark_[triangles_[t][e]] != stamp_ || mark_[triangles_[t][(e + 1) % 3]] != stamp_) continue;
-      open += unread(across_[t][e]), border += across_[t][e] == k_none;
+      if (mark_[triangle(t)[e]] != stamp_ || mark_[triangle(t)[(e + 1) % 3]] != stamp_) continue;
+      open += unread(patched_.across(t, e)), border += patched_.across(t, e) == k_none;
     }
   }
   return border > 0 ? 0 : static_cast<double>(open) / static_cast<double>(bands_.ring(ring).size());

@@ -8,13 +8,15 @@
 // share vertices cannot be told from one wide ring; walking down from the tips, it can.)
 #pragma once
 
+#include "lib/analysis/rings/limb_ends.h"
+#include "lib/analysis/rings/patched_surface.h"
 #include "lib/analysis/surface/bands.h"
-#include "lib/analysis/surface/lids.h"
 #include "lib/analysis/surface/surface.h"
 
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <queue>
 #include <span>
 #include <utility>
@@ -34,8 +36,15 @@ class BandGrowth {
   // blunt vertex only where that is asked for.
   enum class Points : std::uint8_t { followed_by_rings, all, followed_by_a_ring };
   void start_at_points(Points which);
-  // Fronts: the rims of lids (lids.h, with its `smooth`) behind which so many rings of the same size follow.
-  void start_at_lids(double smooth, int rings);
+  // Fronts: the rims of lids (lids.h, with its `smooth`) behind which so many rings of the same size follow;
+  // of any shape, or those that are about as round as a regular polygon.
+  using Lids = LimbEnds::Lids;
+  void start_at_lids(double smooth, int rings, Lids which);
+  // Lids that limbs grow out of the band behind: closes the limbs' holes as read_past_limbs() does, and takes
+  // the patch for a lid only where the band is then one.
+  void start_at_lids_beside_limbs(double smooth);
+  // Takes for lids, flat or not, the discs without inner vertices that one ring of a band encloses.
+  void close_rings();
   // Reads fans round a vertex of which half or more is bordered by one band: blunt points, and caps.
   void close_fans();
   // Fronts: the rings of bands first .. count() - 1, which another method has found.
@@ -83,8 +92,9 @@ class BandGrowth {
   };
 
   bool unread(std::uint32_t t) const { return t != k_none && claimed_[t] == 0; }
-  std::uint32_t& beyond(std::uint32_t t, std::uint32_t a, std::uint32_t b) {
-    return across_[t][static_cast<std::size_t>(edge_between(triangles_[t], a, b))];
+  const Triangle& triangle(std::uint32_t t) const { return patched_.triangle(t); }
+  std::uint32_t beyond(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
+    return patched_.beyond(t, a, b);
   }
   void push(std::uint32_t read_triangle, std::uint32_t a, std::uint32_t b, std::size_t limit);
   bool walk(const Edge& start);
@@ -92,26 +102,30 @@ class BandGrowth {
   bool is_simple(std::span<const std::uint32_t> ring);
   bool is_expected() const;
   bool is_gentle() const;
+  void claim(std::span<const std::uint32_t> ring, std::span<const std::uint32_t> next,
+             std::span<const std::uint32_t> triangles);
   void commit();
   void read_regular();
   bool collect_fan(std::uint32_t v, std::uint32_t t, Fan& fan);
   bool is_point(std::uint32_t v, const Fan& fan, Points which);
-  bool is_lid_corner(std::uint32_t v);
   void read_fan(std::uint32_t v, const Fan& fan);
-  std::vector<Lid>& lids_of(double smooth);
-  bool is_round(std::span<const std::uint32_t> ring) const;
-  bool may_close(const Lid& lid) const;
-  void close_with_lid(const Lid& lid);
+  bool is_unread(const Lid& lid) const;
+  std::uint32_t close_with_lid(const Lid& lid);
+  void open_again();
+  void push_rim(const Lid& lid);
   std::vector<std::uint32_t> first_unread() const;
   bool continues_behind(const Fan& fan, int rings);
-  // A side a -> b of a ring: the triangle of its band, and what lies across.
-  struct Side {
-    std::uint32_t a, b, inside, outside;
-  };
+  // A side of a ring: inside, its band.
+  using Side = PatchedSurface::Side;
+  // Bands and lids are numbered together, and so are their rings: 2b and 2b + 1, of a lid only 2b.
+  static constexpr std::uint32_t k_first_lid = 1u << 30;
+  static constexpr bool is_band(std::uint32_t number) { return number < k_first_lid; }
+  std::span<const std::uint32_t> polygon_of(std::uint32_t ring) const;
+  std::vector<std::uint32_t> triangles_of(std::uint32_t band) const;
   std::vector<Side> sides_of(std::uint32_t ring) const;
   double open_share(std::uint32_t ring);
-  void stand_in(std::span<const Side> sides, std::span<const Triangle> triangles);
-  void take_back(std::span<const Side> sides);
+  void stand_in(std::span<const Side> hole, std::span<const Triangle> triangles);
+  void take_back(std::span<const Side> hole);
   void fill(std::uint32_t ring);
   bool borders_unread(std::uint32_t band) const;
   std::vector<std::uint32_t> limbs_beyond(std::span<const Side> sides) const;
@@ -125,7 +139,13 @@ class BandGrowth {
 
   const Surface& surface_;
   Bands& bands_;
-  std::vector<Triangle> triangles_, across_;  // of the surface, then the stand-ins
+  PatchedSurface patched_;
+  LimbEnds ends_;
+  std::vector<Lid> closing_;  // what was taken for lids
+  // One a triangle of the patched surface: its band or lid, k_none for what is not read and for lids that
+  // another growth has found.
+  std::vector<std::uint32_t> band_of_;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> stand_ins_of_;  // of bands that have some
   std::vector<std::uint8_t> claimed_;
   std::vector<std::uint32_t> seen_;    // one an edge of each triangle: the walk that last passed it
   std::vector<std::uint32_t> mark_;    // one a vertex
@@ -134,9 +154,6 @@ class BandGrowth {
   std::deque<Edge> queue_;
   std::priority_queue<Parked, std::vector<Parked>, std::greater<>> parked_;
   Step step_;
-  std::vector<std::pair<double, std::vector<Lid>>> lids_;  // by angle
-  std::vector<std::uint8_t>
-      lid_corner_;  // one a vertex: whether two triangles of a lid meet there; or none yet
 };
 
 }  // namespace copse

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 namespace copse {
@@ -32,29 +33,37 @@ constexpr auto k_lid_angles = std::to_array({k_lid_smooth_cosines[0], k_lid_smoo
 // From the ends inward, by counting alone.
 void grow_from_ends(const Surface& surface, Ends ends, Bands& bands) {
   using Points = BandGrowth::Points;
+  using Lids = BandGrowth::Lids;
   BandGrowth growth(surface, bands);
   const auto start_at_points = [&](Points which) {
     growth.start_at_points(which);
     growth.run(false);
   };
-  const auto start_at_lids = [&](double smooth, int rings) {
-    if (is_complete(surface, bands)) return;
-    growth.start_at_lids(smooth, rings);
-    growth.run(false);
+  const auto start_at_lids = [&](std::span<const double> angles, int rings, Lids which) {
+    for (const double smooth : angles) {
+      if (is_complete(surface, bands)) return;
+      growth.start_at_lids(smooth, rings, which);
+      growth.run(false);
+    }
   };
   growth.start_at_borders();
   growth.run(false);
   if (ends != Ends::pointed) {
-    for (const double smooth : k_lid_angles) start_at_lids(smooth, 2);
+    start_at_lids(k_lid_angles, 2, Lids::round);
+    start_at_lids(k_lid_angles, 2, Lids::any);
   }
   start_at_points(Points::followed_by_rings);
   if (ends == Ends::any) {
     growth.read_past_limbs();
-    for (const double smooth : k_lid_angles) start_at_lids(smooth, 1);
+    start_at_lids(k_lid_angles, 1, Lids::round);
+    start_at_lids(k_lid_angles, 1, Lids::any);
     start_at_points(Points::followed_by_a_ring);
     growth.read_past_limbs();
-    start_at_lids(k_lid_smooth_cosines[0], 0);
-    growth.read_past_limbs();
+    for (const double smooth : k_lid_angles) {
+      growth.start_at_lids_beside_limbs(smooth);
+      growth.read_past_limbs();
+    }
+    growth.close_rings();
   }
   // The corners of lids are as sharp as points.
   start_at_points(Points::all);

@@ -33,7 +33,7 @@ class RingWalk {
 
   Hierarchy walk() {
     out_.segment_of.assign(s_.triangles.size(), k_none);
-    for (std::uint32_t n = 0; n < g_.nodes(); ++n) holder_[n] = find_holder(n);
+    find_holders();
     const std::uint32_t root = find_root();
     if (root == k_none) return std::move(out_);
     place(root, k_none, branches_++);
@@ -59,19 +59,20 @@ class RingWalk {
     return distance(g_.circle[point].centre, g_.circle[node].centre) < k_cap_height * g_.circle[node].radius;
   }
 
-  // The thicker of two rings with a band between them that hold all of this ring, and an edge of it or more
-  // each: it is the hole in that band that a limb grows out of, and no ring of its own from whichever side
-  // the walk comes. k_none for others.
-  std::uint32_t find_holder(std::uint32_t node) const {
+  // Two rings with a band between them that hold all of this ring, and an edge of it or more each, the
+  // thicker first: it is the hole in that band that a limb grows out of, and no ring of its own from
+  // whichever side the walk comes. k_none for others.
+  using Holders = std::array<std::uint32_t, 2>;
+  Holders find_holders(std::uint32_t node) const {
     const std::uint32_t site = g_.site_of[node];
-    if (site == k_none || is_point(node)) return k_none;
+    if (site == k_none || is_point(node)) return k_no_holders;
     std::vector<std::uint32_t> at;
     for (const std::uint32_t v : ring(node)) {
       for (const std::uint32_t m : g_.nodes_of[v]) {
         if (m != node && !is_point(m)) at.push_back(m);
       }
     }
-    if (at.size() < ring(node).size()) return k_none;
+    if (at.size() < ring(node).size()) return k_no_holders;
     std::ranges::sort(at);
     const auto held = [&](std::uint32_t m) {
       const auto range = std::ranges::equal_range(at, m);
@@ -84,10 +85,25 @@ class RingWalk {
         const std::uint32_t b = g_.across(*i, band);
         const std::size_t of_b = held(b);
         if (of_b < 2 || of_a + of_b != ring(node).size()) continue;
-        return g_.circle[b].radius > g_.circle[*i].radius ? b : *i;
+        return g_.circle[b].radius > g_.circle[*i].radius ? Holders{b, *i} : Holders{*i, b};
       }
     }
-    return k_none;
+    return k_no_holders;
+  }
+
+  // Of the two that hold a hole the thicker one, unless it is a hole itself and the other is none; where both
+  // are holes, what holds them.
+  void find_holders() {
+    std::vector<Holders> holders;
+    for (std::uint32_t n = 0; n < g_.nodes(); ++n) holders.push_back(find_holders(n));
+    const auto is_hole = [&](std::uint32_t n) { return holders[n][0] != k_none; };
+    for (std::uint32_t n = 0; n < g_.nodes(); ++n) {
+      std::uint32_t on = n;
+      for (std::uint32_t steps = 0; is_hole(on) && steps < g_.nodes(); ++steps)
+        on = is_hole(holders[on][0]) && !is_hole(holders[on][1]) ? holders[on][1] : holders[on][0];
+      // Holes that hold one another in a circle are none.
+      holder_[n] = on == n || is_hole(on) ? k_none : on;
+    }
   }
 
   // How well a ring may be the base of the whole: 0 at an end that is open or capped, or lies with others at
@@ -181,6 +197,7 @@ class RingWalk {
           todo.push_back(on);
         }
         if (on != m) seat(m, radius_of_[on], branch_of_[on]);
+        if (out_.radii[radius_of_[n]].parent == radius_of_[on]) explain(b, radius_of_[n]);
         if (on != m || holder_[n] != k_none) beside_holes_.push_back(b);
       }
     }
@@ -268,16 +285,20 @@ class RingWalk {
     std::uint32_t parent = radius_of_[from];
     if (ends.size() >= 2) parent = place_joint(site, from, ends);
     const std::uint32_t next = best_continuation(from, ends);
-    for (const std::uint32_t n : ends) {
-      if (radius_of_[n] != k_none) continue;  // a limb that comes back to its own site
-      const std::uint32_t branch = n == next ? branch_of_[from] : branches_++;
-      const std::uint32_t on = find_seat(n);
-      if (on != k_none) {
-        seat(n, on, branch);
-      } else {
-        place(n, parent, branch);
+    for (const bool sits : {true, false}) {  // what sits on a radius that is placed, first
+      for (const std::uint32_t n : ends) {
+        if (radius_of_[n] != k_none) continue;  // placed, or a limb that comes back to its own site
+        const std::uint32_t held_by = holder_[n] == k_none ? k_none : radius_of_[holder_[n]];
+        if (sits && held_by == k_none) continue;
+        const std::uint32_t branch = n == next ? branch_of_[from] : branches_++;
+        const std::uint32_t on = held_by == k_none ? find_seat(n) : held_by;
+        if (on != k_none) {
+          seat(n, on, branch);
+        } else {
+          place(n, parent, branch);
+        }
+        walk_tube(n);
       }
-      walk_tube(n);
     }
   }
 
@@ -303,10 +324,11 @@ class RingWalk {
   // The segments that end at a node or start there.
   void segments_at(std::uint32_t node, std::vector<std::uint32_t>& segments) const {
     const std::uint32_t r = radius_of_[node];
+    if (r == k_none) return;
     if (out_.radii[r].parent != k_none) segments.push_back(r);
     for (const std::uint32_t b : g_.bands_of[node]) {
       const std::uint32_t child = radius_of_[g_.across(node, b)];
-      if (out_.radii[child].parent == r) segments.push_back(child);
+      if (child != k_none && out_.radii[child].parent == r) segments.push_back(child);
     }
   }
 
@@ -398,6 +420,8 @@ class RingWalk {
     std::ranges::sort(segments);
     for (const std::uint32_t t : g_.patch[site]) explain_by_nearest(t, segments);
   }
+
+  static constexpr Holders k_no_holders{k_none, k_none};
 
   const Surface& s_;
   const Bands& bands_;
