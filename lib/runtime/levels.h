@@ -58,7 +58,8 @@ LodLevel full_detail(const LodSpectra& spectra);
 // The level of the schedule with at most so many triangles (the coarsest when none has), in between its
 // knots.
 LodLevel level_of_triangles(const LodSpectra& spectra, std::uint64_t triangles);
-// The coarsest level of the schedule whose error is at most `error` metres, in between its knots.
+// The coarsest level of the schedule whose error is at most `error` metres, in between its knots. An error is
+// that of the worst point: one of a pixel asks for far more than looks alike, which distances tell better.
 LodLevel level_of_error(const LodSpectra& spectra, double error);
 // Continuous detail by distance: full up to `near`; then the triangles fall with the square of the distance,
 // as the size on screen does (hazard H-11), down to what is left at `far`, which stays (003, section 8.1).

@@ -33,7 +33,7 @@ constexpr std::array k_meanings{
     Meaning{"RMSE", "root mean square error of the pictures, sRGB from 0 to 1; 0 is right"},
     Meaning{"SSIM", "structural similarity of the pictures; 1 is right"},
     Meaning{"Hull growth", "how far the level reaches out of full detail's convex hull / its largest width"},
-    Meaning{"Pixels", "size of the pictures that are compared: about that at which the level is shown"},
+    Meaning{"Pixels", "width of the pictures that are compared"},
     Meaning{"Level to source (m)", "mean distance from points of the level to full detail's surface"},
     Meaning{"Source to level (m)", "mean distance from points of full detail to the level's surface"},
     Meaning{"Level to source, largest (m)", "the largest of these distances"},

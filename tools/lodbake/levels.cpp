@@ -12,7 +12,9 @@
 namespace copse::lodbake {
 namespace {
 
-constexpr double k_full_pixels = 1024, k_screen_lines = 1080, k_field_of_view = std::numbers::pi / 3;
+constexpr double k_full_pixels = 1024;
+// Of a metre a metre away: 1080 lines see 60 degrees.
+constexpr double k_pixels_at_one = 1080 * std::numbers::sqrt3 / 2;
 
 std::vector<LodLevel> wanted(const Options& options, const LodSpectra& spectra) {
   const double full = spectra.schedule.front().triangles;
@@ -35,7 +37,10 @@ double distance_of(double share, double size) {
 }  // namespace
 
 double distance_for_pixels(double metres, double pixels) {
-  return metres * k_screen_lines / (2 * std::tan(k_field_of_view / 2)) / pixels;
+  return metres * k_pixels_at_one / pixels;
+}
+double pixels_at_distance(double metres, double distance) {
+  return metres * k_pixels_at_one / distance;
 }
 
 std::vector<double> asked_shares(const Options& options) {

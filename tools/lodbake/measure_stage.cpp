@@ -17,10 +17,6 @@
 
 namespace copse::lodbake {
 
-int shown_size(double share) {
-  return share >= 0.25 ? 512 : share >= 0.05 ? 128 : 32;
-}
-
 namespace {
 
 // One judge a size, made when it is first asked for.
@@ -70,16 +66,12 @@ std::vector<std::string> quality_row(std::size_t level, const LevelFigures& f) {
           fmt::format("{}", f.pixels)};
 }
 
-// Numbers of different pictures are no curve of one thing.
 void add_image_errors(const std::vector<LevelFigures>& figures, Report& report) {
-  for (const int pixels : {512, 128, 32}) {
-    Curve curve{.name = fmt::format("{} pixels", pixels), .x = "triangles", .y = "RMSE", .points = {}};
-    for (std::size_t i = 0; i < figures.size(); ++i)
-      if (figures[i].pixels == pixels)
-        curve.points.push_back({fmt::format("{}", i), static_cast<double>(figures[i].quality.triangles),
-                                figures[i].quality.rmse});
-    if (!curve.points.empty()) report.curves.push_back(std::move(curve));
-  }
+  Curve curve{.name = "where each level begins", .x = "triangles", .y = "RMSE", .points = {}};
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    curve.points.push_back({fmt::format("{}, {} pixels", i, figures[i].pixels),
+                            static_cast<double>(figures[i].quality.triangles), figures[i].quality.rmse});
+  report.curves.push_back(std::move(curve));
 }
 
 void add_coverage(const std::vector<LevelFigures>& figures, Report& report) {
@@ -147,13 +139,20 @@ double extraction_time(const LevelExtractor& trunk, const LevelExtractor& leaves
   return times[10];
 }
 
-LevelFigures figures_of(const LodSpectra& spectra, const LodLevel& level, std::optional<double> asked,
-                        Judges& judges) {
+// As large as a sphere of that diameter is on the screen where the level begins (levels.h), within reason.
+int pixels_where_shown(double diameter, double distance) {
+  constexpr int k_least = 16, k_most = 512;
+  if (!(distance > 0)) return k_most;
+  return static_cast<int>(
+      std::clamp<double>(std::round(pixels_at_distance(diameter, distance)), k_least, k_most));
+}
+
+LevelFigures figures_of(const LodSpectra& spectra, const LodLevel& level, double diameter, Judges& judges) {
   const DrawnMesh drawn = drawn_level(spectra, level);
   LevelFigures f;
   f.share = static_cast<double>(drawn.triangles.size()) /
             std::max<double>(1, static_cast<double>(full_detail(spectra).triangles));
-  f.pixels = shown_size(asked.value_or(f.share));
+  f.pixels = pixels_where_shown(diameter, level.distance);
   f.quality = judges.measure(drawn, f.pixels);
   const double leaves = area(drawn_state(spectra.leaves, 0));
   if (leaves > 0) f.leaf_area = area(drawn_state(spectra.leaves, level.leaf_steps)) / leaves;
@@ -180,7 +179,7 @@ std::vector<LevelFigures> measure_levels(const Tree& tree, const LodSpectra& spe
   stage.items(levels.size(), "levels");
   const DrawnMesh source = drawn_level(spectra, {});
   Judges judges(source, looks, options.views);
-  const std::vector<double> asked = asked_shares(options);
+  const double diameter = length(bounds(source).extent());
   std::vector<LevelFigures> figures;
   Table table{
       .name = "quality",
@@ -188,9 +187,7 @@ std::vector<LevelFigures> measure_levels(const Tree& tree, const LodSpectra& spe
                   "Coverage, most", "Silhouette IoU", "IoU, least", "RMSE", "SSIM", "Hull growth", "Pixels"},
       .rows = {}};
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const bool by_share = i > 0 && i <= asked.size();
-    figures.push_back(
-        figures_of(spectra, levels[i], by_share ? std::optional(asked[i - 1]) : std::nullopt, judges));
+    figures.push_back(figures_of(spectra, levels[i], diameter, judges));
     table.rows.push_back(quality_row(i, figures.back()));
     stage.progress(static_cast<double>(i + 1) / static_cast<double>(levels.size()));
   }

@@ -16,9 +16,6 @@
 
 namespace copse::lodbake {
 
-// Pixels across the tree at which a level with this share of the triangles is shown.
-int shown_size(double share);
-
 struct LevelFigures {
   LodQuality quality;
   double share = 1;                 // of full detail's triangles
@@ -27,7 +24,8 @@ struct LevelFigures {
 };
 
 // Adds the tables "quality" and "cost" and curves to the report: of each level area, coverage, silhouette,
-// hull growth and image error at the size on screen at which it is shown; bytes, time to extract.
+// hull growth and image error at the size on screen that it has where it begins (levels.h), 16 to 512 pixels
+// across the sphere round the tree; bytes, time to extract.
 std::vector<LevelFigures> measure_levels(const Tree& tree, const LodSpectra& spectra, const Looks& looks,
                                          const std::vector<LodLevel>& levels, const Options& options,
                                          Context& context);

@@ -63,8 +63,8 @@ std::string number(double value) {
   return fmt::format("{:.4g}", value);
 }
 
-// What is low and wide, or lies on its side, is as large on the screen as what stands. What has no size at all is
-// seen from nowhere, but its distances still ascend.
+// What is low and wide, or lies on its side, is as large on the screen as what stands. What has no size at
+// all is seen from nowhere, but its distances still ascend.
 double largest_side(const FloatBox& box) {
   const Float3 e = box.extent();
   return std::max({double(e.x), double(e.y), double(e.z), 1e-12});

@@ -16,6 +16,11 @@
 namespace copse::lodbake {
 namespace {
 
+// Pixels across the tree at which methods are compared at a share of the triangles: the same for every tree.
+int compared_size(double share) {
+  return share >= 0.25 ? 512 : share >= 0.05 ? 128 : 32;
+}
+
 constexpr double k_shares[] = {0.5, 0.25, 0.1, 0.05, 0.02};
 constexpr std::uint64_t k_last = 200;  // triangles of the last geometric level
 
@@ -209,8 +214,8 @@ void sweep(const Tree& tree, const BakedSpectra& baked, const Looks& looks, cons
     });
   };
   for (const double share : k_shares)
-    rows(table, share, static_cast<std::uint64_t>(std::floor(share * full)), shown_size(share));
-  if (full > k_last) rows(last, k_last / full, k_last, shown_size(0));
+    rows(table, share, static_cast<std::uint64_t>(std::floor(share * full)), compared_size(share));
+  if (full > k_last) rows(last, k_last / full, k_last, compared_size(0));
   stage.items(table.rows.size() + last.rows.size(), "levels");
   for (Table* t : {&table, &last})
     if (!t->rows.empty()) context.report().tables.push_back(std::move(*t));
