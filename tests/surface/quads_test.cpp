@@ -40,9 +40,26 @@ TEST(Quads, AreReadFromTheOrderOfTheFileHoweverSlantedWhereNothingElseCounts) {
   }
   const Surface s = surface_of(strip);
   const std::vector<std::uint32_t> taken(s.triangles.size(), k_none);
-  const auto partner = pair_quads(s, taken, QuadOrder::file_only);
+  const auto partner = pair_all_quads(s);
+  ASSERT_EQ(partner.size(), s.triangles.size());
   for (std::uint32_t t = 0; t < partner.size(); ++t) EXPECT_EQ(partner[t], t ^ 1u);
   EXPECT_NE(pair_quads(s, taken, QuadOrder::file), partner);
+}
+
+TEST(Quads, AreNoneWhereOneTriangleIsLeftOver) {
+  std::vector<Cell> cells{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
+  TrunkMesh mesh = smooth_cells(cells, 0);
+  const auto all = pair_all_quads(surface_of(mesh));
+  ASSERT_EQ(all.size(), mesh.triangles.size());
+  for (std::uint32_t t = 0; t < all.size(); ++t) EXPECT_EQ(all[all[t]], t);
+  mesh.triangles.pop_back(), mesh.source.pop_back(), mesh.piece.pop_back();
+  EXPECT_TRUE(pair_all_quads(surface_of(mesh)).empty());
+  // Even in number, but one is far from square with each of its neighbours.
+  mesh.positions.push_back(mesh.positions[mesh.triangles[0][0]] + Double3{40, 40, 40});
+  mesh.triangles.push_back(
+      {mesh.triangles[0][0], mesh.triangles[0][1], static_cast<std::uint32_t>(mesh.positions.size() - 1)});
+  mesh.source.push_back(2 * mesh.source.back() + 1000), mesh.piece.push_back(0);
+  EXPECT_TRUE(pair_all_quads(surface_of(mesh)).empty());
 }
 
 TEST(Quads, AreReadFromTheOrderOfTheFile) {
@@ -67,7 +84,7 @@ TEST(Quads, LeaveTakenTrianglesAlone) {
   const Surface s = surface_of(slanted_tube());
   std::vector<std::uint32_t> taken(s.triangles.size(), k_none);
   taken[4] = taken[5] = 0;
-  for (const QuadOrder order : {QuadOrder::shape, QuadOrder::file, QuadOrder::file_only}) {
+  for (const QuadOrder order : {QuadOrder::shape, QuadOrder::file}) {
     const auto partner = pair_quads(s, taken, order);
     EXPECT_EQ(partner[4], k_none);
     EXPECT_EQ(partner[5], k_none);

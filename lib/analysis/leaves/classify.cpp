@@ -66,9 +66,10 @@ bool weld_borders(const Mesh& mesh, const PieceScan& scan, Indices& welded) {
   if (triangles.empty()) return false;
   std::vector<Double3> positions;
   for (const std::uint32_t v : vertices) positions.push_back(mesh.positions[v]);
-  std::vector<double> reach = weld_tolerances(positions, triangles);
+  Indices equal = weld(positions, 0.0);
+  std::vector<double> reach = weld_tolerances(positions, triangles, equal);
   for (std::size_t i = 0; i < reach.size(); ++i) reach[i] *= on_border[i];
-  const Indices joined = weld(positions, reach);
+  const Indices joined = weld(positions, reach, std::move(equal));
   bool changed = false;
   for (std::uint32_t i = 0; i < joined.size(); ++i) {
     welded[vertices[i]] = vertices[joined[i]];

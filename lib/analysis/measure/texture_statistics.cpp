@@ -166,15 +166,24 @@ class Sampler {
 
  private:
   void sum_up() {
-    std::stable_sort(lines_.begin(), lines_.end(),
-                     [](const Scanline& a, const Scanline& b) { return a.row < b.row; });
     Row row(texels_.width());
     int read = -1;
-    for (const Scanline& line : lines_) {
+    for (const std::uint32_t l : lines_by_row()) {
+      const Scanline& line = lines_[l];
       if (line.row != read) row.read(texels_, read = line.row);
       sums_[line.footprint] += row.between(line.from, line.to);
       lengths_[line.footprint] += line.to - line.from;
     }
+  }
+
+  // The lines in the order of their rows, those of a row in their own.
+  std::vector<std::uint32_t> lines_by_row() const {
+    std::vector<std::uint32_t> next(static_cast<std::size_t>(texels_.height()) + 1, 0), order(lines_.size());
+    for (const Scanline& line : lines_) ++next[static_cast<std::size_t>(line.row) + 1];
+    for (std::size_t r = 1; r < next.size(); ++r) next[r] += next[r - 1];
+    for (std::uint32_t l = 0; l < lines_.size(); ++l)
+      order[next[static_cast<std::size_t>(lines_[l].row)]++] = l;
+    return order;
   }
 
   const Texels& texels_;

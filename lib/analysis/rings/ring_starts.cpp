@@ -11,7 +11,8 @@ RingStarts::RingStarts(const TrunkMesh& mesh, const Fans& fans)
     : mesh_(mesh),
       fans_(fans),
       local_(mesh.triangles.size()),
-      boundary_(mesh.positions.size(), k_not_looked) {}
+      boundary_(mesh.positions.size(), k_not_looked),
+      met_(mesh.positions.size(), 0) {}
 
 void RingStarts::sides_at(std::uint32_t vertex) {
   sides_.clear();
@@ -30,17 +31,22 @@ RingStarts::Pair RingStarts::boundary_neighbours(std::uint32_t vertex) {
 }
 
 RingStarts::Pair RingStarts::look_for_boundary(std::uint32_t vertex) {
-  sides_at(vertex);
+  const auto each_neighbour = [&](const auto& visit) {
+    for (const std::uint32_t t : fans_.of(vertex)) {
+      for (const std::uint32_t v : mesh_.triangles[t]) {
+        if (v != vertex) visit(v);
+      }
+    }
+  };
+  each_neighbour([&](std::uint32_t v) { met_[v] = met_[v] == 0 ? 1 : 2; });
   Pair found = k_no_boundary;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const bool alone = (i == 0 || sides_[i - 1].neighbour != sides_[i].neighbour) &&
-                       (i + 1 == sides_.size() || sides_[i + 1].neighbour != sides_[i].neighbour);
-    if (!alone) continue;
-    if (count == 2) return k_no_boundary;
-    found[count++] = sides_[i].neighbour;
-  }
-  return count == 2 ? found : k_no_boundary;
+  each_neighbour([&](std::uint32_t v) {
+    ++looked_at_;
+    if (met_[v] == 1 && ++count <= 2) found[count - 1] = v;
+    met_[v] = 0;
+  });
+  return count == 2 ? Pair{std::min(found[0], found[1]), std::max(found[0], found[1])} : k_no_boundary;
 }
 
 std::uint32_t RingStarts::first_on_boundary(std::span<const std::uint32_t> vertices) {

@@ -64,6 +64,7 @@ class RingStarts {
   std::vector<Side> sides_;
   std::vector<std::uint32_t> local_;  // scratch: one a triangle
   std::vector<Pair> boundary_;        // one a vertex
+  std::vector<std::uint8_t> met_;     // scratch: one a vertex
   std::size_t looked_at_ = 0;
 };
 

@@ -17,47 +17,45 @@ double angle_at(const Double3& corner, const Double3& a, const Double3& b) {
   return std::atan2(length(cross(u, v)), dot(u, v));
 }
 
-// The angles at the corners of every triangle that is not taken.
-std::vector<std::array<float, 3>> angles_of(const Surface& s, std::span<const std::uint32_t> taken) {
-  std::vector<std::array<float, 3>> angles(s.triangles.size());
-  for (std::size_t i = 0; i < angles.size(); ++i) {
-    if (taken[i] != k_none) continue;
-    const Triangle& t = s.triangles[i];
-    const Double3 &a = s.positions[t[0]], &b = s.positions[t[1]], &c = s.positions[t[2]];
-    const double at_a = angle_at(a, b, c), at_b = angle_at(b, c, a);
-    angles[i] = {static_cast<float>(at_a), static_cast<float>(at_b),
-                 static_cast<float>(std::numbers::pi - at_a - at_b)};
-  }
-  return angles;
-}
-
-// How far from rectangles two triangles with a common edge are.
+// How far from rectangles two triangles with a common edge are. Remembers the angles at their corners.
 class Skew {
  public:
-  Skew(const Surface& s, std::span<const std::uint32_t> taken) : s_(s), angles_(angles_of(s, taken)) {}
+  explicit Skew(const Surface& s) : s_(s), angles_(s.triangles.size(), {k_unknown, 0, 0}) {}
 
-  // Both not taken: of `t` and the triangle across its edge `e`: the sum over the corners of the deviation
-  // from a right angle.
-  float operator()(std::uint32_t t, std::size_t e) const {
+  // Of `t` and the triangle across its edge `e`: the sum over the corners of the deviation from a right
+  // angle.
+  float operator()(std::uint32_t t, std::size_t e) {
     const std::uint32_t u = s_.across[t][e];
     const auto f = static_cast<std::size_t>(
         edge_between(s_.triangles[u], s_.triangles[t][e], s_.triangles[t][(e + 1) % 3]));
     const bool turned = s_.triangles[u][f] == s_.triangles[t][e];  // both run the same way along the edge
-    const std::array<float, 3>&x = angles_[t], &y = angles_[u];
+    const std::array<float, 3>&x = angles(t), &y = angles(u);
     const float begin = y[turned ? f : (f + 1) % 3], end = y[turned ? (f + 1) % 3 : f];
     return off(x[(e + 2) % 3]) + off(y[(f + 2) % 3]) + off(x[e] + begin) + off(x[(e + 1) % 3] + end);
   }
 
  private:
+  static constexpr float k_unknown = -1;
   static float off(float angle) { return std::abs(angle - std::numbers::pi_v<float> / 2); }
 
+  const std::array<float, 3>& angles(std::uint32_t triangle) {
+    std::array<float, 3>& angles = angles_[triangle];
+    if (angles[0] != k_unknown) return angles;
+    const Triangle& t = s_.triangles[triangle];
+    const Double3 &a = s_.positions[t[0]], &b = s_.positions[t[1]], &c = s_.positions[t[2]];
+    const double at_a = angle_at(a, b, c), at_b = angle_at(b, c, a);
+    angles = {static_cast<float>(at_a), static_cast<float>(at_b),
+              static_cast<float>(std::numbers::pi - at_a - at_b)};
+    return angles;
+  }
+
   const Surface& s_;
-  std::vector<std::array<float, 3>> angles_;
+  std::vector<std::array<float, 3>> angles_;  // one a triangle, at its corners
 };
 
 // Pairs neighbours along runs of consecutive triangles that share edges: of all ways to pair them the one
 // with the fewest left over, then the least skew.
-void pair_runs(const Surface& s, const Skew& skew, std::span<const std::uint32_t> taken, double most_skew,
+void pair_runs(const Surface& s, Skew& skew, std::span<const std::uint32_t> taken, double most_skew,
                std::vector<std::uint32_t>& partner) {
   const auto n = static_cast<std::uint32_t>(s.triangles.size());
   // cost[t]: skew of pairing t with t + 1, negative when they cannot be paired.
@@ -85,7 +83,7 @@ void pair_runs(const Surface& s, const Skew& skew, std::span<const std::uint32_t
   }
 }
 
-void pair_by_shape(const Surface& s, const Skew& skew, std::span<const std::uint32_t> taken,
+void pair_by_shape(const Surface& s, Skew& skew, std::span<const std::uint32_t> taken,
                    std::vector<std::uint32_t>& partner) {
   struct Candidate {
     float skew;
@@ -204,18 +202,43 @@ class Strips {
   std::vector<std::uint32_t> left_, right_, triangles_;
 };
 
+constexpr double k_any_skew = std::numeric_limits<double>::infinity();
+
+// Whether each triangle has a neighbour that it could be paired with: next to it in the file, or nearly a
+// rectangle with it.
+bool may_all_pair(const Surface& s, Skew& skew) {
+  std::vector<std::uint8_t> may_pair(s.triangles.size(), 0);
+  for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+    for (std::size_t e = 0; e < 3; ++e) {
+      const std::uint32_t u = s.across[t][e];
+      if (u == k_none || u < t || (may_pair[t] && may_pair[u])) continue;
+      const bool in_order = u == t + 1 && s.order[u] == s.order[t] + 1;
+      if (in_order || skew(t, e) <= k_quad_skew) may_pair[t] = may_pair[u] = 1;
+    }
+    if (!may_pair[t]) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> pair_quads(const Surface& surface, std::span<const std::uint32_t> taken,
                                       QuadOrder order) {
   std::vector<std::uint32_t> partner(surface.triangles.size(), k_none);
-  const Skew skew(surface, taken);
-  if (order != QuadOrder::shape) {
-    const bool any = order == QuadOrder::file_only;
-    pair_runs(surface, skew, taken, any ? std::numeric_limits<double>::infinity() : k_quad_skew_in_order,
-              partner);
-  }
+  Skew skew(surface);
+  if (order == QuadOrder::file) pair_runs(surface, skew, taken, k_quad_skew_in_order, partner);
   pair_by_shape(surface, skew, taken, partner);
+  return partner;
+}
+
+std::vector<std::uint32_t> pair_all_quads(const Surface& surface) {
+  Skew skew(surface);
+  if (!may_all_pair(surface, skew)) return {};
+  std::vector<std::uint32_t> partner(surface.triangles.size(), k_none);
+  const std::vector<std::uint32_t> taken = partner;
+  pair_runs(surface, skew, taken, k_any_skew, partner);
+  pair_by_shape(surface, skew, taken, partner);
+  if (std::ranges::find(partner, k_none) != partner.end()) partner.clear();
   return partner;
 }
 

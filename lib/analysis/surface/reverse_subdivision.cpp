@@ -517,12 +517,10 @@ std::optional<std::array<std::uint32_t, 2>> tips_of(const Triangle& a, const Tri
 
 // The quads of the surface and the quad of each triangle; none where a triangle is in no quad.
 std::vector<Quad> quads_of(const Surface& s, std::vector<std::uint32_t>& quad_of) {
-  const std::vector<std::uint32_t> taken(s.triangles.size(), k_none);
-  const std::vector<std::uint32_t> partner = pair_quads(s, taken, QuadOrder::file_only);
+  const std::vector<std::uint32_t> partner = pair_all_quads(s);
   std::vector<Quad> quads;
-  quad_of.assign(s.triangles.size(), k_none);
-  for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
-    if (partner[t] == k_none) return {};
+  quad_of.assign(partner.size(), k_none);
+  for (std::uint32_t t = 0; t < partner.size(); ++t) {
     if (partner[t] < t) continue;
     const Triangle& triangle = s.triangles[t];
     const auto tips = tips_of(triangle, s.triangles[partner[t]]);
@@ -565,8 +563,9 @@ bool all_quads(const Lists& faces, std::vector<Quad>& quads) {
 std::optional<Cage> reverse_subdivision(const Surface& surface) {
   if (surface.triangles.size() < k_least_subdivided) return std::nullopt;
   Cage cage;
-  Level level{quads_of(surface, cage.face_of), surface.positions};
+  Level level{quads_of(surface, cage.face_of), {}};
   if (level.quads.empty()) return std::nullopt;
+  level.positions = surface.positions;
   // Near the origin: the iteration's last digits would be lost to an offset.
   const Double3 origin = level.positions[0];
   for (Double3& p : level.positions) p -= origin;

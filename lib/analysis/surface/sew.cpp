@@ -27,12 +27,14 @@ std::vector<EdgeUse> contact_edges(std::span<const Triangle> triangles,
   for (const Triangle& t : triangles) points = std::max(points, std::ranges::max(t) + 1);
   constexpr std::uint32_t k_several = k_none - 1;
   std::vector<std::uint32_t> user(points, k_none);
+  bool any = false;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const std::uint32_t v : triangles[t]) {
       if (user[v] == k_none) user[v] = piece[t];
-      if (user[v] != piece[t]) user[v] = k_several;
+      if (user[v] != piece[t]) user[v] = k_several, any = true;
     }
   }
+  if (!any) return {};
   // Sorted into buckets by the lower end, then each small bucket: linear, whatever the number of edges.
   std::vector<std::uint32_t> first(points + 1, 0);
   const auto each = [&](const auto& visit) {
@@ -150,6 +152,7 @@ std::vector<std::uint32_t> sew(std::span<const Double3> positions, std::span<con
                                std::span<const std::uint32_t> piece) {
   std::uint32_t pieces = 0;
   for (const std::uint32_t p : piece) pieces = std::max(pieces, p + 1);
+  if (pieces == 1) return {0};
   UnionFind surfaces(pieces);
   const std::vector<EdgeUse> edges = contact_edges(triangles, piece);
   std::vector<Seam> seams;

@@ -4,14 +4,14 @@
 #include "lib/analysis/surface/sew.h"
 #include "lib/analysis/surface/weld.h"
 
-#include <cmath>
+#include <algorithm>
+#include <utility>
 
 namespace copse {
 namespace {
 
-// The mesh vertices that the trunk uses, ascending, and the trunk's triangles over them.
+// The positions that the trunk uses, in the mesh's order, and the trunk's triangles over them.
 struct UsedVertices {
-  std::vector<std::uint32_t> vertex;
   std::vector<Double3> positions;
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> source;
@@ -20,15 +20,16 @@ struct UsedVertices {
 UsedVertices used_by_trunk(const Mesh& mesh, std::span<const std::uint8_t> is_trunk) {
   UsedVertices used;
   std::vector<std::uint32_t> number(mesh.positions.size(), k_none);
+  used.source.reserve(is_trunk.size() - static_cast<std::size_t>(std::ranges::count(is_trunk, 0)));
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!is_trunk[t]) continue;
     for (const std::uint32_t v : mesh.triangles[t]) number[v] = 0;
     used.source.push_back(t);
   }
+  used.positions.reserve(number.size() - static_cast<std::size_t>(std::ranges::count(number, k_none)));
   for (std::uint32_t v = 0; v < number.size(); ++v) {
     if (number[v] == k_none) continue;
-    number[v] = static_cast<std::uint32_t>(used.vertex.size());
-    used.vertex.push_back(v);
+    number[v] = static_cast<std::uint32_t>(used.positions.size());
     used.positions.push_back(mesh.positions[v]);
   }
   used.triangles.reserve(used.source.size());
@@ -65,12 +66,13 @@ std::vector<std::uint8_t> are_closed(std::span<const Triangle> triangles,
 // was computed twice, and two vertices that are near are two.
 std::vector<std::uint32_t> weld_open(std::span<const Double3> positions,
                                      std::span<const Triangle> triangles) {
-  const std::vector<std::uint8_t> closed = are_closed(triangles, weld(positions, 0.0));
-  std::vector<double> reach = weld_tolerances(positions, triangles);
+  std::vector<std::uint32_t> equal = weld(positions, 0.0);
+  const std::vector<std::uint8_t> closed = are_closed(triangles, equal);
+  std::vector<double> reach = weld_tolerances(positions, triangles, equal);
   for (std::size_t v = 0; v < reach.size(); ++v) {
     if (closed[v]) reach[v] = 0;
   }
-  return weld(positions, reach);
+  return weld(positions, reach, std::move(equal));
 }
 
 // Gives every (representative, surface) pair a vertex of its own, numbered by its lowest used vertex.
@@ -104,6 +106,44 @@ bool is_degenerate(const Triangle& t) {
   return t[0] == t[1] || t[0] == t[2] || t[1] == t[2];
 }
 
+// Leaves out the triangles that are degenerate once welded, in `used` and in `piece` (one a triangle). The
+// answer: the others, welded.
+std::vector<Triangle> keep_sound(std::span<const std::uint32_t> representative, UsedVertices& used,
+                                 std::vector<std::uint32_t>& piece) {
+  std::vector<Triangle> welded;
+  welded.reserve(used.triangles.size());
+  for (std::size_t t = 0; t < used.triangles.size(); ++t) {
+    const Triangle& u = used.triangles[t];
+    const Triangle w{representative[u[0]], representative[u[1]], representative[u[2]]};
+    if (is_degenerate(w)) continue;
+    const std::size_t kept = welded.size();
+    used.triangles[kept] = u, used.source[kept] = used.source[t], piece[kept] = piece[t];
+    welded.push_back(w);
+  }
+  used.triangles.resize(welded.size()), used.source.resize(welded.size()), piece.resize(welded.size());
+  return welded;
+}
+
+// The surface that each position lies on; k_none where no triangle uses it.
+std::vector<std::uint32_t> surfaces_of(const UsedVertices& used, std::span<const std::uint32_t> piece,
+                                       std::span<const Triangle> welded) {
+  const std::vector<std::uint32_t> surface_of_piece = sew(used.positions, welded, piece);
+  std::vector<std::uint32_t> surface(used.positions.size(), k_none);
+  for (std::size_t t = 0; t < used.triangles.size(); ++t) {
+    for (const std::uint32_t v : used.triangles[t]) surface[v] = surface_of_piece[piece[t]];
+  }
+  return surface;
+}
+
+void number_by_first(Components& pieces) {
+  std::vector<std::uint32_t> number(pieces.count, k_none);
+  pieces.count = 0;
+  for (std::uint32_t& p : pieces.of) {
+    if (number[p] == k_none) number[p] = pieces.count++;
+    p = number[p];
+  }
+}
+
 }  // namespace
 
 TrunkMesh make_trunk_mesh(const Mesh& mesh, std::span<const std::uint8_t> is_trunk, double tolerance,
@@ -112,39 +152,24 @@ TrunkMesh make_trunk_mesh(const Mesh& mesh, std::span<const std::uint8_t> is_tru
   const std::vector<std::uint32_t> representative =
       tolerance < 0 ? weld_open(used.positions, used.triangles) : weld(used.positions, tolerance);
   // Degenerate triangles still connect the piece that they lie in.
-  const Components pieces = connected_components(used.triangles);
+  Components pieces = connected_components(used.triangles);
   TrunkMesh trunk;
-  std::vector<Triangle> kept, welded;
-  std::vector<std::uint32_t> kept_piece;
-  for (std::size_t t = 0; t < used.triangles.size(); ++t) {
-    const Triangle& u = used.triangles[t];
-    const Triangle w{representative[u[0]], representative[u[1]], representative[u[2]]};
-    if (is_degenerate(w)) continue;
-    kept.push_back(u);
-    welded.push_back(w);
-    kept_piece.push_back(pieces.of[t]);
-    trunk.source.push_back(used.source[t]);
-    if (!file_order.empty()) trunk.file_order.push_back(file_order[used.source[t]]);
+  {
+    const std::vector<Triangle> welded = keep_sound(representative, used, pieces.of);
+    const std::vector<std::uint32_t> surface = surfaces_of(used, pieces.of, welded);
+    const SurfaceVertices vertices(representative, surface);
+    trunk.positions.reserve(vertices.lowest.size());
+    for (const std::uint32_t v : vertices.lowest) trunk.positions.push_back(used.positions[v]);
+    for (Triangle& t : used.triangles) t = {vertices.id[t[0]], vertices.id[t[1]], vertices.id[t[2]]};
   }
-  const std::vector<std::uint32_t> surface_of_piece = sew(used.positions, welded, kept_piece);
-  std::vector<std::uint32_t> surface(used.positions.size(), k_none);
-  for (std::size_t t = 0; t < kept.size(); ++t) {
-    for (const std::uint32_t v : kept[t]) surface[v] = surface_of_piece[kept_piece[t]];
+  trunk.triangles = std::move(used.triangles);
+  trunk.source = std::move(used.source);
+  if (!file_order.empty()) {
+    trunk.file_order.reserve(trunk.source.size());
+    for (const std::uint32_t t : trunk.source) trunk.file_order.push_back(file_order[t]);
   }
-  const SurfaceVertices vertices(representative, surface);
-  trunk.positions.reserve(vertices.lowest.size());
-  for (const std::uint32_t v : vertices.lowest) trunk.positions.push_back(used.positions[v]);
-  trunk.triangles.reserve(kept.size());
-  for (const Triangle& t : kept) {
-    trunk.triangles.push_back({vertices.id[t[0]], vertices.id[t[1]], vertices.id[t[2]]});
-  }
-  std::vector<std::uint32_t> number(pieces.count, k_none);
-  std::uint32_t count = 0;
-  for (std::uint32_t& p : kept_piece) {
-    if (number[p] == k_none) number[p] = count++;
-    p = number[p];
-  }
-  trunk.piece = std::move(kept_piece);
+  number_by_first(pieces);
+  trunk.piece = std::move(pieces.of);
   return trunk;
 }
 

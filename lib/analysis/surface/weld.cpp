@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace copse {
 namespace {
@@ -207,11 +208,14 @@ std::vector<double> tolerances_of(std::span<const Double3> positions, std::span<
 
 }  // namespace
 
+std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const double> tolerances,
+                                std::vector<std::uint32_t> equal) {
+  weld_near(positions, tolerances, equal);
+  return equal;
+}
+
 std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const double> tolerances) {
-  std::vector<std::uint32_t> representative(positions.size());
-  weld_equal(positions, representative);
-  weld_near(positions, tolerances, representative);
-  return representative;
+  return weld(positions, tolerances, weld(positions, 0.0));
 }
 
 std::vector<std::uint32_t> weld(std::span<const Double3> positions, double tolerance) {
@@ -222,18 +226,20 @@ std::vector<std::uint32_t> weld(std::span<const Double3> positions, double toler
 }
 
 std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const Triangle> triangles) {
-  std::vector<std::uint32_t> representative(positions.size());
-  weld_equal(positions, representative);
-  weld_near(positions, tolerances_of(positions, triangles, representative), representative);
-  return representative;
+  std::vector<std::uint32_t> equal = weld(positions, 0.0);
+  const std::vector<double> tolerances = tolerances_of(positions, triangles, equal);
+  return weld(positions, tolerances, std::move(equal));
+}
+
+std::vector<double> weld_tolerances(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                                    std::span<const std::uint32_t> equal) {
+  std::vector<double> tolerances = tolerances_of(positions, triangles, equal);
+  for (std::size_t v = 0; v < positions.size(); ++v) tolerances[v] = tolerances[equal[v]];
+  return tolerances;
 }
 
 std::vector<double> weld_tolerances(std::span<const Double3> positions, std::span<const Triangle> triangles) {
-  std::vector<std::uint32_t> representative(positions.size());
-  weld_equal(positions, representative);
-  std::vector<double> tolerances = tolerances_of(positions, triangles, representative);
-  for (std::size_t v = 0; v < positions.size(); ++v) tolerances[v] = tolerances[representative[v]];
-  return tolerances;
+  return weld_tolerances(positions, triangles, weld(positions, 0.0));
 }
 
 }  // namespace copse

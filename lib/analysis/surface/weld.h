@@ -21,11 +21,19 @@ namespace copse {
 std::vector<std::uint32_t> weld(std::span<const Double3> positions, double tolerance);
 std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const double> tolerances);
 
+// The same where `equal` is weld(positions, 0.0) already.
+std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const double> tolerances,
+                                std::vector<std::uint32_t> equal);
+
 // The same with tolerances from the mesh itself.
 std::vector<std::uint32_t> weld(std::span<const Double3> positions, std::span<const Triangle> triangles);
 
 // These tolerances, one a position (tolerances.h): far below the edges that meet there (at it or at an equal
 // position), above rounding. 0 for positions that no triangle uses.
 std::vector<double> weld_tolerances(std::span<const Double3> positions, std::span<const Triangle> triangles);
+
+// The same where `equal` is weld(positions, 0.0) already.
+std::vector<double> weld_tolerances(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                                    std::span<const std::uint32_t> equal);
 
 }  // namespace copse
