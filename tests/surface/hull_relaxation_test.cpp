@@ -28,6 +28,9 @@ Lists edges(bool with_leaning_one) {
   return make_lists(pairs, 9);
 }
 
+// How much of the factor counts: half for the squares, all for the point beside them.
+const std::vector<double> k_weights{0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 1};
+
 std::vector<Double3> relaxed(const Lists& neighbours, double factor) {
   std::vector<Double3> out = k_squares;
   for (std::size_t v = 0; v < out.size(); ++v) {
@@ -35,7 +38,7 @@ std::vector<Double3> relaxed(const Lists& neighbours, double factor) {
     Double3 sum = k_squares[v];
     for (const std::uint32_t n : neighbours[v]) sum += k_squares[n];
     const Double3 mean = sum / static_cast<double>(neighbours[v].size() + 1);
-    out[v] += (mean - k_squares[v]) * (factor / 2);
+    out[v] += (mean - k_squares[v]) * (factor * k_weights[v]);
   }
   return out;
 }
@@ -55,14 +58,20 @@ TEST(HullRelaxation, FindsTheFactorAndTheSquares) {
   for (const double factor : {0.05, 0.2, 0.5, 1.0}) {
     std::vector<Double3> p = relaxed(neighbours, factor);
     ASSERT_LT(squares(p), 2u);
-    EXPECT_NEAR(undo_hull_relaxation(p, neighbours, squares, 1), factor, 1e-12);
+    EXPECT_NEAR(undo_hull_relaxation(p, neighbours, k_weights, squares, 1), factor, 1e-12);
     for (std::size_t v = 0; v < p.size(); ++v) EXPECT_LT(distance(p[v], k_squares[v]), 1e-6) << v;
   }
 }
 
+TEST(HullRelaxation, IsUndoneByAFactorThatIsKnown) {
+  const Lists neighbours = edges(true);
+  const std::vector<Double3> p = before_hull_relaxation(relaxed(neighbours, 0.4), neighbours, k_weights, 0.4);
+  for (std::size_t v = 0; v < p.size(); ++v) EXPECT_LT(distance(p[v], k_squares[v]), 1e-6) << v;
+}
+
 TEST(HullRelaxation, LeavesAloneWhatWasNotMoved) {
   std::vector<Double3> p = k_squares;
-  EXPECT_EQ(undo_hull_relaxation(p, edges(true), squares, 1), 0);
+  EXPECT_EQ(undo_hull_relaxation(p, edges(true), k_weights, squares, 1), 0);
   EXPECT_EQ(p, k_squares);
 }
 
@@ -71,13 +80,13 @@ TEST(HullRelaxation, LeavesAloneWhatNoFactorMends) {
   p[0].x += 0.1;
   p[5].y += 0.1;
   const std::vector<Double3> before = p;
-  EXPECT_EQ(undo_hull_relaxation(p, edges(true), squares, 1), 0);
+  EXPECT_EQ(undo_hull_relaxation(p, edges(true), k_weights, squares, 1), 0);
   EXPECT_EQ(p, before);
 }
 
 TEST(HullRelaxation, AsksForAsManyAsItIsTold) {
   std::vector<Double3> p = relaxed(edges(true), 0.2);
-  EXPECT_EQ(undo_hull_relaxation(p, edges(true), squares, 3), 0);
+  EXPECT_EQ(undo_hull_relaxation(p, edges(true), k_weights, squares, 3), 0);
 }
 
 }  // namespace

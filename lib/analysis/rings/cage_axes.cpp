@@ -1,10 +1,9 @@
 #include "lib/analysis/rings/cage_axes.h"
 
 #include "lib/analysis/rings/axis.h"
+#include "lib/analysis/rings/cage_rings.h"
+#include "lib/analysis/rings/hull_frames.h"
 #include "lib/analysis/rings/polyline_simplification.h"
-#include "lib/analysis/rings/ring_graph.h"
-#include "lib/analysis/surface/hull_relaxation.h"
-#include "lib/analysis/surface/quads.h"
 #include "lib/analysis/surface/welded_tolerances.h"
 
 #include <algorithm>
@@ -14,40 +13,6 @@
 
 namespace copse {
 namespace {
-
-// The cage as triangles, two a quad.
-struct CageSurface {
-  Surface surface;
-  std::vector<std::uint32_t> local;        // one a vertex of the cage: its number in the surface
-  std::vector<std::uint32_t> partner;      // one a triangle: the other half of its quad
-  std::vector<std::uint32_t> triangle_of;  // one a face: a triangle of it
-};
-
-CageSurface triangulate(const Cage& cage) {
-  TrunkMesh mesh;
-  mesh.positions = cage.positions;
-  std::vector<std::uint32_t> first, all;
-  for (std::uint32_t f = 0; f < cage.faces.count(); ++f) {
-    const auto corners = cage.faces[f];
-    first.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-      all.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
-      mesh.triangles.push_back({corners[0], corners[i], corners[i + 1]});
-    }
-  }
-  CageSurface out{make_surface(mesh, all), std::vector<std::uint32_t>(cage.positions.size(), k_none), {}, {}};
-  for (std::uint32_t v = 0; v < out.surface.vertex.size(); ++v) out.local[out.surface.vertex[v]] = v;
-  out.partner.assign(out.surface.triangles.size(), k_none);
-  for (std::uint32_t f = 0; f < cage.faces.count(); ++f) {
-    const std::uint32_t a = out.surface.triangle_of[first[f]];
-    out.triangle_of.push_back(a);
-    if (cage.faces[f].size() != 4) continue;
-    const std::uint32_t b = out.surface.triangle_of[first[f] + 1];
-    if (out.partner[a] == k_none && out.partner[b] == k_none && a != b)
-      out.partner[a] = b, out.partner[b] = a;
-  }
-  return out;
-}
 
 // The closed curve that subdividing a ring `levels` times makes of it.
 double smoothed_radius(std::vector<Double3> ring, std::uint32_t levels, bool to_limit) {
@@ -77,7 +42,7 @@ double smoothed_radius(std::vector<Double3> ring, std::uint32_t levels, bool to_
 // A ring, or the place where limbs meet.
 struct Station {
   std::uint32_t node = k_none;  // of the ring; k_none: a fork
-  std::uint32_t site = k_none;  // of a fork
+  std::uint32_t fork = k_none;  // of the cage's rings
   std::uint32_t parent = k_none;
   Double3 centre{}, normal{};
   double radius = 0;
@@ -91,21 +56,26 @@ class CageAxes {
  public:
   explicit CageAxes(const Cage& cage)
       : cage_(cage),
-        mesh_(triangulate(cage)),
-        s_(mesh_.surface),
-        bands_(read_bands()),
-        g_(make_ring_graph(s_, bands_)) {
-    if (drop_strips_across_hulls()) g_ = make_ring_graph(s_, bands_);
-    undo_relaxation();
-  }
+        smoothed_square_(
+            smoothed_radius({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, cage.levels, cage.is_on_limit)),
+        c_(read_cage_rings(cage)),
+        s_(c_.surface),
+        bands_(c_.bands),
+        g_(c_.graph) {}
 
   Hierarchy run() {
     if (bands_.count() == 0 || 2 * bands_.triangles.size() < s_.triangles.size()) return {};
     place_stations();
     list_neighbours();
+    solve_frames();
     stations_[0].is_kept = true;  // everything hangs on it, also where it is no end
     for (std::uint32_t i = 0; i < stations_.size(); ++i) {
-      if (is_fork(i)) meet(i);
+      if (!is_fork(i)) continue;
+      if (stations_[i].is_whole) {
+        set_fork_radius(i);
+      } else {
+        meet(i);
+      }
     }
     for (std::uint32_t i = 0; i < stations_.size(); ++i) {
       if (is_fixed(i)) keep_corners(i);
@@ -114,102 +84,10 @@ class CageAxes {
   }
 
  private:
-  Bands read_bands() const {
-    Bands bands;
-    bands.band_of.assign(s_.triangles.size(), k_none);
-    add_quad_bands(s_, mesh_.partner, bands);
-    return bands;
-  }
-
-  // Strips of a hull that happen to close: at a ring that limbs lead away from on three sides, what has no
-  // regular ring. Whether there were any.
-  bool drop_strips_across_hulls() {
-    Bands kept;
-    kept.band_of.assign(s_.triangles.size(), k_none);
-    for (std::uint32_t b = 0; b < bands_.count(); ++b) {
-      const std::uint32_t x = g_.node_of[2 * b], y = g_.node_of[2 * b + 1];
-      const bool is_crossed = g_.bands_of[x].size() > 2 || g_.bands_of[y].size() > 2;
-      if (is_crossed && !is_regular(x, s_.positions) && !is_regular(y, s_.positions)) continue;
-      kept.add(bands_.ring(2 * b), bands_.ring(2 * b + 1), bands_.triangles_of(b));
-    }
-    if (kept.count() == bands_.count()) return false;
-    bands_ = std::move(kept);
-    return true;
-  }
-
-  bool is_fork_site(std::uint32_t node) const {
-    return g_.site_of[node] != k_none && g_.ends[g_.site_of[node]].size() >= 3;
-  }
-
-  // The faces of hulls: those in no band, and bands between a hull and a ring that was hung on it.
-  bool is_hull(std::uint32_t t) const {
-    const std::uint32_t b = bands_.band_of[t];
-    if (b != k_none) {
-      const std::uint32_t x = g_.node_of[2 * b], y = g_.node_of[2 * b + 1];
-      return (is_fork_site(x) || is_fork_site(y)) && !is_regular(x, s_.positions) &&
-             !is_regular(y, s_.positions);
-    }
-    return std::ranges::any_of(s_.triangles[t], [&](std::uint32_t v) {
-      return std::ranges::any_of(g_.nodes_of[v], [&](std::uint32_t n) { return is_fork_site(n); });
-    });
-  }
-
-  void undo_relaxation() {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    for (std::uint32_t f = 0; f < cage_.faces.count(); ++f) {
-      if (!is_hull(mesh_.triangle_of[f])) continue;
-      const auto corners = cage_.faces[f];
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const std::uint32_t a = mesh_.local[corners[i]], b = mesh_.local[corners[(i + 1) % corners.size()]];
-        pairs.emplace_back(a, b), pairs.emplace_back(b, a);
-      }
-    }
-    std::ranges::sort(pairs);
-    const Lists neighbours = make_lists(pairs, s_.positions.size());
-    std::vector<std::uint32_t> rings;
-    for (std::uint32_t n = 0; n < g_.nodes(); ++n) {
-      if (is_fork_site(n)) rings.push_back(n);
-    }
-    const auto regular = [&](const std::vector<Double3>& positions) {
-      return static_cast<std::size_t>(
-          std::ranges::count_if(rings, [&](std::uint32_t n) { return is_regular(n, positions); }));
-    };
-    const auto least = static_cast<std::size_t>(k_relaxed_share * static_cast<double>(rings.size()));
-    for (std::uint32_t n = 0; n < g_.nodes(); ++n) was_moved_.push_back(!is_regular(n, s_.positions));
-    if (undo_hull_relaxation(s_.positions, neighbours, regular, least) > 0) g_ = make_ring_graph(s_, bands_);
-  }
-
-  std::span<const std::uint32_t> ring(std::uint32_t node) const { return bands_.ring(g_.ring[node]); }
+  std::span<const std::uint32_t> ring(std::uint32_t node) const { return c_.ring(node); }
   bool is_fork(std::uint32_t i) const { return stations_[i].node == k_none; }
   bool is_fixed(std::uint32_t i) const { return is_fork(i) || neighbours_[i].size() != 2; }
-
-  // How far a ring may be off by rounding alone.
-  double noise(double radius) const { return k_cage_noise * cage_.precision + k_cage_tolerance * radius; }
-
-  // How far a ring is from lying evenly about its centre.
-  static double unevenness(const std::vector<Double3>& points) {
-    const std::size_t n = points.size();
-    Double3 centre;
-    double radius = 0, uneven = 0;
-    for (const Double3& p : points) centre += p / static_cast<double>(n);
-    for (const Double3& p : points) radius += distance(p, centre) / static_cast<double>(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      uneven = std::max(uneven, std::abs(distance(points[i], centre) - radius));
-      if (n % 2 == 0)
-        uneven = std::max(uneven, distance(points[i] + points[(i + n / 2) % n], centre * 2.0) / 2);
-    }
-    return uneven;
-  }
-
-  std::vector<Double3> points_of(std::uint32_t node, const std::vector<Double3>& positions) const {
-    std::vector<Double3> points;
-    for (const std::uint32_t v : ring(node)) points.push_back(positions[v]);
-    return points;
-  }
-
-  bool is_regular(std::uint32_t node, const std::vector<Double3>& positions) const {
-    return unevenness(points_of(node, positions)) <= noise(g_.circle[node].radius);
-  }
+  double noise(double radius) const { return c_.noise(radius); }
 
   // Puts back the one corner of a square that was moved; false where more were, or the ring is no square.
   bool mend_square(std::vector<Double3>& p) const {
@@ -225,11 +103,17 @@ class CageAxes {
     return false;
   }
 
+  std::vector<Double3> points_of(std::uint32_t node) const {
+    std::vector<Double3> points;
+    for (const std::uint32_t v : ring(node)) points.push_back(s_.positions[v]);
+    return points;
+  }
+
   std::uint32_t add_ring(std::uint32_t node, std::uint32_t parent) {
-    std::vector<Double3> points = points_of(node, s_.positions);
+    std::vector<Double3> points = points_of(node);
     Station station{.node = node, .parent = parent};
-    station.is_whole = is_regular(node, s_.positions);
-    station.was_moved = !station.is_whole || was_moved_[node];
+    station.is_whole = c_.is_regular(node);
+    station.was_moved = !station.is_whole || !c_.was_regular[node];
     station.is_whole = station.is_whole || mend_square(points);
     const std::size_t n = points.size();
     for (const Double3& p : points) station.centre += p / static_cast<double>(n);
@@ -239,7 +123,7 @@ class CageAxes {
     station.normal = normalized(station.normal, {});
     station.radius = smoothed_radius(std::move(points), cage_.levels, cage_.is_on_limit);
     stations_.push_back(station);
-    return station_of_[node] = static_cast<std::uint32_t>(stations_.size() - 1);
+    return static_cast<std::uint32_t>(stations_.size() - 1);
   }
 
   // The thickest of the rings that end a limb, lower ones first among equals.
@@ -253,33 +137,151 @@ class CageAxes {
     return best == k_none ? 0 : best;
   }
 
+  std::uint32_t end_of(std::uint32_t node, std::uint32_t band) const {
+    return g_.node_of[2 * band] == node ? 2 * band : 2 * band + 1;
+  }
+
+  // A station with the bands that the walk has yet to follow from it.
+  struct Arrival {
+    std::uint32_t station, node;
+    std::uint32_t by;  // the end by which the walk came; k_none: it begins here
+  };
+
+  // From the root over bands, and at forks and from tube to tube over hulls.
   void place_stations() {
-    station_of_.assign(g_.nodes(), k_none);
-    std::vector<std::uint8_t> entered(g_.sites, 0);
-    std::vector<std::uint32_t> todo{add_ring(find_root(), k_none)};
-    while (!todo.empty()) {
-      const std::uint32_t at = todo.back(), node = stations_[at].node;
-      todo.pop_back();
-      // A limb that was put on a whole ring of another one leads away from it as a third.
-      std::uint32_t parent = at;
-      if (g_.bands_of[node].size() >= 3) parent = add_fork(at, k_none);
-      for (const std::uint32_t b : g_.bands_of[node]) {
-        const std::uint32_t other = g_.across(node, b);
-        if (station_of_[other] == k_none) todo.push_back(add_ring(other, parent));
-      }
-      const std::uint32_t site = g_.site_of[node];
-      if (site == k_none || entered[site]) continue;
-      entered[site] = 1;
-      if (parent == at && g_.ends[site].size() >= 3) parent = add_fork(at, site);
-      for (const std::uint32_t other : g_.ends[site]) {
-        if (station_of_[other] == k_none) todo.push_back(add_ring(other, parent));
+    station_of_.assign(2 * std::size_t{bands_.count()}, k_none);
+    fork_station_.assign(c_.ends_of.count(), k_none);
+    entered_.assign(g_.sites, 0);
+    const std::uint32_t root = find_root();
+    todo_.push_back({add_ring(root, k_none), root, k_none});
+    while (!todo_.empty()) {
+      const Arrival at = todo_.back();
+      todo_.pop_back();
+      const std::uint32_t fork = at.by == k_none ? k_none : c_.fork_of[at.by];
+      if (fork != k_none) {
+        enter(fork, at);
+      } else {
+        go_on(at);
       }
     }
   }
 
-  std::uint32_t add_fork(std::uint32_t parent, std::uint32_t site) {
-    stations_.push_back({.site = site, .parent = parent});
+  // Follows a band from the station at its near end to a new one at its far end.
+  void follow(std::uint32_t station, std::uint32_t end) {
+    station_of_[end] = station;
+    const std::uint32_t far = end ^ 1u;
+    if (station_of_[far] != k_none) return;
+    const std::uint32_t node = g_.node_of[far];
+    station_of_[far] = add_ring(node, station);
+    todo_.push_back({station_of_[far], node, far});
+  }
+
+  void enter(std::uint32_t fork, const Arrival& at) {
+    if (fork_station_[fork] != k_none) return;
+    const std::uint32_t station = fork_station_[fork] = add_fork(at.station, fork);
+    for (const std::uint32_t end : c_.ends_of[fork]) {
+      if (end == at.by || station_of_[end] != k_none) continue;
+      follow(add_ring(g_.node_of[end], station), end);
+    }
+  }
+
+  void go_on(const Arrival& at) {
+    std::uint32_t parent = at.station;
+    // A limb that was put on a whole ring of another one leads away from it as a third.
+    if (g_.bands_of[at.node].size() >= 3) parent = add_fork(at.station, k_none);
+    for (const std::uint32_t b : g_.bands_of[at.node]) {
+      const std::uint32_t end = end_of(at.node, b);
+      if (end == at.by || c_.is_hull[b] || station_of_[end] != k_none) continue;
+      if (c_.fork_of[end] != k_none) {
+        enter(c_.fork_of[end], {at.station, at.node, end});
+      } else {
+        follow(parent, end);
+      }
+    }
+    const std::uint32_t site = g_.site_of[at.node];
+    if (site == k_none || entered_[site]) return;
+    entered_[site] = 1;
+    for (const std::uint32_t other : g_.ends[site]) {
+      if (other == at.node) continue;
+      for (const std::uint32_t b : g_.bands_of[other]) {
+        const std::uint32_t end = end_of(other, b);
+        if (station_of_[end] == k_none) follow(add_ring(other, parent), end);
+      }
+    }
+  }
+
+  std::uint32_t add_fork(std::uint32_t parent, std::uint32_t fork) {
+    stations_.push_back({.fork = fork, .parent = parent});
     return static_cast<std::uint32_t>(stations_.size() - 1);
+  }
+
+  // The squares next to forks, and the forks, as they were before the squares were hulled.
+  void solve_frames() {
+    FrameGraph graph;
+    for (const Station& s : stations_) {
+      FrameGraph::Corners corners{k_none, k_none, k_none, k_none};
+      if (s.node != k_none) {
+        if (ring(s.node).size() != 4) return;
+        std::ranges::copy(ring(s.node), corners.begin());
+      }
+      graph.corners.push_back(corners);
+      graph.is_regular.push_back(s.node != k_none && c_.is_regular(s.node));
+    }
+    graph.neighbours = neighbours_;
+    const std::vector<Frame> frames =
+        solve_hull_frames(s_.positions, graph, [&](double radius) { return noise(radius); });
+    take(frames);
+  }
+
+  void take(const std::vector<Frame>& frames) {
+    for (std::uint32_t i = 0; i < stations_.size(); ++i) {
+      if (!frames[i].is_face) continue;
+      stations_[i].is_whole = false;
+      stations_[i].is_dropped = true;
+    }
+    for (std::uint32_t i = 0; i < stations_.size(); ++i) {
+      if (!frames[i].is_solved) continue;
+      stations_[i].centre = frames[i].centre;
+      stations_[i].is_whole = true;
+      for (const std::uint32_t n : neighbours_[i]) {
+        const std::uint32_t ring = frames[n].is_face ? next(i, n) : n;
+        Station& s = stations_[ring];
+        s.centre = frames[ring].centre;
+        s.normal = frames[ring].normal;
+        s.radius = frames[ring].reach * smoothed_square_;
+        s.is_whole = true;
+        s.was_moved = false;
+      }
+    }
+  }
+
+  // The station after `here`, which has two, coming from `before`.
+  std::uint32_t next(std::uint32_t before, std::uint32_t here) const {
+    const auto around = neighbours_[here];
+    return around[0] == before ? around[1] : around[0];
+  }
+
+  // Where the rings of a limb lead straight to a fork, so do their radii.
+  void set_fork_radius(std::uint32_t fork) {
+    Station& station = stations_[fork];
+    std::vector<double> led, beside;
+    for (std::uint32_t n : neighbours_[fork]) {
+      std::uint32_t before = fork;
+      if (stations_[n].is_dropped) before = std::exchange(n, next(fork, n));
+      const Station& a = stations_[n];
+      beside.push_back(a.radius);
+      if (is_fixed(n)) continue;
+      const Station& b = stations_[next(before, n)];
+      const double step = distance(a.centre, b.centre);
+      if (b.node == k_none || !b.is_whole || !(step > 0)) continue;
+      const Line line{a.centre, (a.centre - b.centre) / step, a.radius, 0, {}, 0};
+      const double way = distance(station.centre, a.centre);
+      if (line.off(station.centre) <= tolerance(line) * std::max(1.0, way / step))
+        led.push_back(a.radius + (a.radius - b.radius) / step * way);
+    }
+    std::vector<double>& radii = led.empty() ? beside : led;
+    std::ranges::sort(radii);
+    station.radius = radii[radii.size() / 2];
   }
 
   void list_neighbours() {
@@ -484,9 +486,9 @@ class CageAxes {
       };
       if (s.node != k_none) {
         for (const std::uint32_t v : ring(s.node)) give(v);
-      } else if (s.site != k_none) {
-        for (const std::uint32_t n : g_.ends[s.site]) {
-          for (const std::uint32_t v : ring(n)) {
+      } else if (s.fork != k_none) {
+        for (const std::uint32_t end : c_.ends_of[s.fork]) {
+          for (const std::uint32_t v : bands_.ring(end)) {
             if (!owned[v]) give(v);
           }
         }
@@ -509,22 +511,24 @@ class CageAxes {
     std::vector<std::uint32_t> around;
     for (std::uint32_t t = 0; t < segment.size(); ++t) {
       around.clear();
-      if (const std::uint32_t b = bands_.band_of[t]; b != k_none) {
-        const std::uint32_t x = station_of_[g_.node_of[2 * b]], y = station_of_[g_.node_of[2 * b + 1]];
+      if (const std::uint32_t b = bands_.band_of[t]; b != k_none && !c_.is_hull[b]) {
+        const std::uint32_t x = station_of_[2 * b], y = station_of_[2 * b + 1];
         for (const auto& [child, parent] : {std::pair(x, y), std::pair(y, x)}) {
           if (child != k_none && stations_[child].parent == parent) around.push_back(outward[child]);
         }
       } else {
         for (const std::uint32_t v : s_.triangles[t]) {
-          for (const std::uint32_t n : g_.nodes_of[v])
-            segments_at(station_of_[n], outward, radius_of, h, around);
+          for (const std::uint32_t n : g_.nodes_of[v]) {
+            for (const std::uint32_t at : g_.bands_of[n])
+              segments_at(station_of_[end_of(n, at)], outward, radius_of, h, around);
+          }
         }
       }
       segment[t] = nearest_segment(h, around, t);
     }
     spread(segment);
     h.segment_of.reserve(cage_.face_of.size());
-    for (const std::uint32_t f : cage_.face_of) h.segment_of.push_back(segment[mesh_.triangle_of[f]]);
+    for (const std::uint32_t f : cage_.face_of) h.segment_of.push_back(segment[c_.triangle_of[f]]);
   }
 
   // What no ring touches goes with what lies beside it.
@@ -572,14 +576,16 @@ class CageAxes {
   }
 
   const Cage& cage_;
-  CageSurface mesh_;
+  double smoothed_square_;  // the radius of what a square is subdivided to whose corners are 1 off its centre
+  CageRings c_;
   Surface& s_;
-  Bands bands_;
-  RingGraph g_;
-  std::vector<Station> stations_;  // parents before children
-  std::vector<std::uint32_t> station_of_;
+  Bands& bands_;
+  RingGraph& g_;
+  std::vector<Station> stations_;                         // parents before children
+  std::vector<std::uint32_t> station_of_, fork_station_;  // one an end, one a fork; k_none: none yet
+  std::vector<std::uint8_t> entered_;                     // one a site
+  std::vector<Arrival> todo_;
   Lists neighbours_;
-  std::vector<std::uint8_t> was_moved_;  // one a node
 };
 
 }  // namespace

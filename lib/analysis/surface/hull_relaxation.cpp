@@ -7,11 +7,10 @@
 #include <utility>
 
 namespace copse {
-namespace {
 
-// The positions that moving by `weight` has made `moved` of. The system is diagonally dominant for weights up
-// to a half, so that Gauss and Seidel's iteration converges.
-std::vector<Double3> before(const std::vector<Double3>& moved, const Lists& neighbours, double weight) {
+// The system is diagonally dominant for weights up to a half, so that Gauss and Seidel's iteration converges.
+std::vector<Double3> before_hull_relaxation(const std::vector<Double3>& moved, const Lists& neighbours,
+                                            std::span<const double> weights, double factor) {
   std::vector<Double3> p = moved;
   for (int round = 0; round < k_relaxation_rounds; ++round) {
     double change = 0, size = 0;
@@ -19,6 +18,7 @@ std::vector<Double3> before(const std::vector<Double3>& moved, const Lists& neig
       if (neighbours[v].empty()) continue;
       Double3 sum;
       for (const std::uint32_t n : neighbours[v]) sum += p[n];
+      const double weight = weights[v] * factor;
       const double share = weight / static_cast<double>(neighbours[v].size() + 1);
       const Double3 next = (moved[v] - sum * share) / (1 - weight + share);
       change = std::max(change, distance(next, p[v]));
@@ -30,9 +30,8 @@ std::vector<Double3> before(const std::vector<Double3>& moved, const Lists& neig
   return p;
 }
 
-}  // namespace
-
 double undo_hull_relaxation(std::vector<Double3>& positions, const Lists& neighbours,
+                            std::span<const double> weights,
                             const std::function<std::size_t(const std::vector<Double3>&)>& regular_rings,
                             std::size_t least) {
   constexpr int k_steps = 20;
@@ -41,7 +40,7 @@ double undo_hull_relaxation(std::vector<Double3>& positions, const Lists& neighb
   double factor = 0;
   for (int step = 1; step <= k_steps; ++step) {
     const double tried = static_cast<double>(step) / k_steps;
-    std::vector<Double3> p = before(positions, neighbours, tried / 2);
+    std::vector<Double3> p = before_hull_relaxation(positions, neighbours, weights, tried);
     const std::size_t regular = regular_rings(p);
     if (regular < most) continue;
     most = regular + 1;

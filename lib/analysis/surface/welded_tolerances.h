@@ -195,7 +195,19 @@ inline constexpr double k_foretold_of_edge = 1.0 / 128;
 inline constexpr int k_relaxation_rounds = 200;
 inline constexpr double k_relaxation_done = 1e-9;
 
-// --- cage_axes
+// --- hull_frames
+
+// Limbs of one fork that are looked at for rings that were hung on its hull though they do not look like it.
+inline constexpr std::size_t k_most_hung = 16;
+// Levenberg and Marquardt's iteration: rounds at most (10 where all is as foretold), the damping that it begins with
+// (times the squares of slopes, which are about 1), and the share of the cost below which a gain is none.
+inline constexpr int k_frame_rounds = 100;
+inline constexpr double k_frame_damping = 1e-3;
+inline constexpr double k_frame_done = 1e-6;
+// Radii: the step of differences, the cube root of rounding.
+inline constexpr double k_frame_difference = 6e-6;
+
+// --- cage_rings, cage_axes
 
 // How much more than the file's rounding moves a ring's centre: undoing a subdivision enlarges it.
 inline constexpr double k_cage_noise = 16;
