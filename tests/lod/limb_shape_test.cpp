@@ -2,8 +2,11 @@
 
 #include "tests/lod/tube_tree.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +30,7 @@ struct Limb {
 std::vector<SpectrumVertex> ring_vertices(const LimbShape& shape, std::size_t i, std::size_t interval,
                                           std::uint32_t sides, double angle) {
   std::vector<SpectrumVertex> out;
-  shape.append_ring(i, interval, sides, angle, 1, out);
+  shape.append_ring(i, interval, sides, 0, angle, 1, out);
   return out;
 }
 
@@ -181,6 +184,116 @@ TEST(LimbShape, ACrownOfPointsIsNoRing) {
 TEST(LimbShape, WhatIsThickForTheTreeCountsMore) {
   const Limb limb(stem_with_twigs(5, 8, 0));  // 4 m high, 0.5 m of radius
   EXPECT_NEAR(limb.shape.weight(0), 1 + 80 * 0.5 / 4, 0.01);
+}
+
+std::uint32_t ring_before(const Tube& tube) {
+  return static_cast<std::uint32_t>(tube.hierarchy.radii.size() - 1);
+}
+
+// A straight stem whose rings turn by `degrees` from one to the next, with its vertices and its texture,
+// which goes `times` round it.
+Limb turning(int rings, int sides, double degrees, double times) {
+  Tube tube;
+  const auto k = static_cast<std::uint32_t>(sides);
+  for (int i = 0; i < rings; ++i) {
+    const std::uint32_t ring =
+        tube.add_ring({0, 1.0 * i, 0}, 0.5, sides, i == 0 ? k_none : ring_before(tube));
+    for (std::uint32_t j = 0; j < k; ++j) {
+      const double at = 2 * std::numbers::pi * j / k + i * degrees * std::numbers::pi / 180;
+      tube.mesh.positions[tube.hierarchy.first_vertex[ring] + j] = {0.5 * std::cos(at), 1.0 * i,
+                                                                    0.5 * std::sin(at)};
+    }
+  }
+  Tree tree = tree_of(tube);
+  std::vector<Float2> texcoords;
+  for (int i = 0; i < rings; ++i)
+    for (std::uint32_t j = 0; j <= k; ++j)
+      texcoords.push_back({static_cast<float>(times * j / k), static_cast<float>(i)});
+  auto triangles = tree.trunk.triangles.to_vector();
+  for (auto& t : triangles) {
+    std::array<std::uint32_t, 3> in{};
+    for (std::size_t c = 0; c < 3; ++c) in[c] = t.vertex[c] % k;
+    const bool seam = std::ranges::count(in, 0u) > 0 && std::ranges::count(in, k - 1) > 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      t.texcoord[c] = t.vertex[c] / k * (k + 1) + (seam && in[c] == 0 ? k : in[c]);
+  }
+  tree.trunk.texcoords = texcoords, tree.trunk.triangles = triangles;
+  return Limb(std::move(tree));
+}
+
+// The vertices of ring `to` in the band that comes from ring `from`.
+std::vector<SpectrumVertex> upper_ring(const LimbShape& shape, std::size_t from, std::size_t to,
+                                       std::uint32_t sides) {
+  std::vector<SpectrumVertex> out;
+  shape.append_ring(to, to - 1, sides, shape.turn(from, to, sides), 0, 1, out);
+  return out;
+}
+
+TEST(LimbShape, ABandThatSpansRingsThatTurnIsNotTwisted) {
+  for (const double degrees : {-31.0, -13.0, 0.0, 5.0, 25.0}) {
+    const Limb limb = turning(9, 7, degrees, 1);
+    for (const std::uint32_t k : {7u, 5u, 4u, 3u}) {
+      const auto low = ring_vertices(limb.shape, 1, 1, k, 0), high = upper_ring(limb.shape, 1, 8, k);
+      const double radius = std::hypot(low[0].position.x, low[0].position.z);
+      // The middle of an edge between the rings is no nearer the axis than the middle of a side.
+      const auto middle = [&](std::size_t a, std::size_t b) {
+        return 0.5 * std::hypot(double{low[a].position.x} + high[b].position.x,
+                                double{low[a].position.z} + high[b].position.z);
+      };
+      for (std::size_t j = 0; j < k; ++j) {
+        EXPECT_GE(middle(j, j), 0.99 * radius * std::cos(std::numbers::pi / k)) << degrees << " " << k;
+        EXPECT_GE(middle(j + 1, j), 0.85 * radius * std::cos(std::numbers::pi / k)) << degrees << " " << k;
+      }
+    }
+  }
+}
+
+TEST(LimbShape, ARingWithAllItsSidesHasTheVerticesOfTheMesh) {
+  const Limb limb = turning(9, 7, 13, 1);
+  const std::size_t first = limb.tree.first_vector_of(8);
+  for (const SpectrumVertex& v : upper_ring(limb.shape, 1, 8, 7)) {
+    double nearest = 1;
+    for (std::size_t j = 0; j < 7; ++j)
+      nearest =
+          std::min(nearest, distance(to_double(v.position),
+                                     limb.centres[8] + to_double(limb.tree.hierarchy.vectors[first + j])));
+    EXPECT_LT(nearest, 1e-6);
+  }
+}
+
+TEST(LimbShape, ATextureThatRepeatsGoesOnRoundARingThatTurns) {
+  for (const double degrees : {-31.0, -13.0, 25.0}) {
+    const Limb limb = turning(9, 7, degrees, 2);
+    for (const std::uint32_t k : {7u, 4u}) {
+      const auto low = ring_vertices(limb.shape, 1, 1, k, 0), high = upper_ring(limb.shape, 1, 8, k);
+      // The frames of a limb go round the other way than the texture.
+      for (std::size_t j = 0; j < k; ++j) {
+        EXPECT_NEAR(low[j].texcoord.x - low[j + 1].texcoord.x, 2.0 / k, 0.02) << degrees << " " << k;
+        EXPECT_NEAR(high[j].texcoord.x - high[j + 1].texcoord.x, 2.0 / k, 0.02) << degrees << " " << k;
+      }
+      // Seven rings farther the texture has turned with the mesh.
+      const auto angle = [](const SpectrumVertex& v) { return std::atan2(v.position.z, v.position.x); };
+      const double on = std::remainder(angle(high[0]) - angle(low[0]), 2 * std::numbers::pi);
+      EXPECT_NEAR(high[0].texcoord.x - low[0].texcoord.x,
+                  2 * (on / (2 * std::numbers::pi) - 7 * degrees / 360), 0.02)
+          << degrees << " " << k;
+    }
+  }
+}
+
+TEST(LimbShape, ATextureThatDoesNotRepeatIsNotTornApart) {
+  const Limb limb = turning(4, 6, 10, 0.5);  // half of the picture: the other half is something else
+  for (const auto& ring : {ring_vertices(limb.shape, 1, 1, 6, 0), upper_ring(limb.shape, 0, 3, 6)}) {
+    EXPECT_NEAR(ring.front().texcoord.x, 0.5, 1e-3);
+    EXPECT_NEAR(ring.back().texcoord.x, 0, 1e-3);
+  }
+}
+
+TEST(LimbShape, RingsThatTurnOtherwiseThanTheirBandCostTheirCorners) {
+  const Limb straight = turning(9, 7, 0, 1), turned = turning(9, 7, 20, 1), fine = turning(9, 14, 20, 1);
+  EXPECT_NEAR(straight.shape.turned_error(0, 8), 0, 1e-6);
+  EXPECT_GT(turned.shape.turned_error(0, 8), 0.01);
+  EXPECT_LT(fine.shape.turned_error(0, 8), 0.5 * turned.shape.turned_error(0, 8));
 }
 
 TEST(LimbShape, CountsItsTriangles) {

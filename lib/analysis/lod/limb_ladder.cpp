@@ -8,15 +8,14 @@
 namespace copse {
 namespace {
 
-constexpr double k_rung_ratio = 0.75;  // of the triangles of the rung before: closer rungs are left out
+constexpr double k_rung_ratio = 0.85;  // of the triangles of the rung before: closer rungs are left out
 constexpr double k_ribbon = 0.45, k_spike = 0.7;  // rms distance from a tube of radius 1
 
 // Of leaves whose twig went elsewhere, in square metres of silhouette a square metre of leaf.
 constexpr double k_left_behind = 0.2;
 
-// How far a regular k-gon lies from the circle of its perimeter, rms, as a share of the radius.
 double roughness(std::uint32_t sides) {
-  return sides == 2 ? k_ribbon : sides == 1 ? k_spike : 1.7 / (static_cast<double>(sides) * sides);
+  return sides == 2 ? k_ribbon : sides == 1 ? k_spike : polygon_roughness(sides);
 }
 
 // From its edge a ribbon is not seen. Where many limbs are ribbons, as much is too wide in any view as is
@@ -55,10 +54,10 @@ class RingOrder {
       : shape_(shape), forks_(forks), by_(by), leaves_(leaves) {
     const auto n = static_cast<std::uint32_t>(shape.ring_count());
     for (std::uint32_t i = 0; i < n; ++i) before_.push_back(i - 1), after_.push_back(i + 1);
-    version_.assign(n, 0), interval_.assign(n, 0);
+    version_.assign(n, 0), interval_.assign(n, 0), turned_.assign(n, 0);
     std::priority_queue<Removal> queue;
     for (std::uint32_t i = 1; i + 1 < n; ++i) queue.push({cost(i), i, 0});
-    costs.push_back(0), bounds.push_back(0);
+    costs.push_back(0), turns.push_back(0), bounds.push_back(0);
     while (!queue.empty()) {
       const Removal next = queue.top();
       queue.pop();
@@ -69,6 +68,7 @@ class RingOrder {
 
   std::vector<std::uint32_t> order;   // rings as they go
   std::vector<double> costs, bounds;  // after so many have gone
+  std::vector<double> turns;          // of costs that are the rings' own corners'
 
  private:
   double cost(std::uint32_t i) const {
@@ -78,7 +78,8 @@ class RingOrder {
     if (by_ == RemovalOrder::angle) return weight * bend(b - a, c - b);
     if (by_ == RemovalOrder::projected_angle) return weight * projected_bend(b - a, c - b);
     if (by_ == RemovalOrder::diameter) return weight * shape_.ring(i).radius;
-    const double extra = error(before_[i], after_[i]) - interval_[before_[i]] - interval_[i];
+    const double extra = error(before_[i], after_[i]) + shape_.turned_error(before_[i], after_[i]) -
+                         interval_[before_[i]] - interval_[i] - turned_[before_[i]] - turned_[i];
     return std::max(extra, 0.0) * weight;
   }
   double error(std::size_t a, std::size_t b) const {
@@ -89,7 +90,9 @@ class RingOrder {
     const double joined = error(a, b);
     costs.push_back(std::max(costs.back(), total_ += joined - interval_[a] - interval_[i]));
     bounds.push_back(std::max(bounds.back(), shape_.largest_error(a, b)));
-    interval_[a] = joined;
+    const double turned = shape_.turned_error(a, b);
+    turns.push_back(std::max(0.0, turns.back() + turned - turned_[a] - turned_[i]));
+    interval_[a] = joined, turned_[a] = turned;
     order.push_back(i);
     after_[a] = b, before_[b] = a;
     ++version_[i];
@@ -103,7 +106,7 @@ class RingOrder {
   RemovalOrder by_;
   HangingLeaves leaves_;
   std::vector<std::uint32_t> before_, after_, version_;
-  std::vector<double> interval_;  // error of the interval that begins at a ring
+  std::vector<double> interval_, turned_;  // errors of the interval that begins at a ring
   double total_ = 0;
 };
 
@@ -175,7 +178,7 @@ class Walk {
     r.triangles = shape_.triangles(shape_.ring_count() - gone, r.sides);
     // The mesh's own polygon lies off the circle too, but elsewhere: a square becomes no triangle for free.
     const double rough = k == 0 ? 0 : std::hypot(roughness(r.sides), roughness(sides_.front()));
-    r.cost = rings_.costs[gone] + girth_ * rough + rough_;
+    r.cost = rings_.costs[gone] + (k == 0 ? rings_.turns[gone] : girth_ * rough) + rough_;
     if (r.sides == 2 && k > 0) r.cost += girth_ * alone_;
     r.bound = rings_.bounds[gone] + 2 * rough * thickest_ + 3 * residual_;
     return r;

@@ -22,7 +22,10 @@ constexpr double k_inner_share =
 constexpr double k_point_share = 0.05;           // of the ring before: a thinner last ring is a point
 constexpr double k_level = 1.2, k_steepest = 4;  // radii along the axis, of a level ring and of a tilted one
 constexpr double k_once = 2.5;                   // of its height: up once and down once is twice
-constexpr double k_tilted = 0.8;       // of its perimeter: what a tilted ring measures across the axis
+constexpr double k_tilted = 0.8;  // of its perimeter: what a tilted ring measures across the axis
+// Of a side: by so much a ring may lie before the one below, or vertices that jitter would give bands that
+// turn and others that do not.
+constexpr double k_slack = 0.1;
 constexpr std::size_t k_samples = 16;  // rings looked at when an interval's error is taken
 constexpr double k_ribbon_width =
     std::numbers::pi / 2;  // in diameters: a flat strip seen from all round is 2/pi wide
@@ -79,6 +82,10 @@ bool goes_round(const RingShape& ring, std::span<const RingCorner> polygon) {
          (off < k_level || (off < k_steepest && up_and_down < k_once * (high - low)));
 }
 
+Float2 moved(const Float2& a, const Float2& by, float times = 1) {
+  return {a.x + times * by.x, a.y + times * by.y};
+}
+
 bool near_texcoord(const Float2& a, const Float2& b) {
   return std::abs(a.x - b.x) < 1e-3f && std::abs(a.y - b.y) < 1e-3f;
 }
@@ -103,7 +110,7 @@ LimbShape::LimbShape(const Tree& tree, const std::vector<Double3>& centres, cons
   for (std::size_t i = 0; i < intervals; ++i) read_sides(i, scratch);
   if (flat_) unfold();
   thin_out_radii();
-  choose_phases();
+  choose_first_vertices();
 }
 
 void LimbShape::make_frames(const std::vector<Double3>& centres) {
@@ -228,6 +235,7 @@ void LimbShape::read_sides(std::size_t interval, std::array<std::vector<RingSide
     sides_.insert(sides_.end(), list.begin(), list.end());
     first_side_.push_back(static_cast<std::uint32_t>(sides_.size()));
   }
+  for (const std::size_t e : {0u, 1u}) unwind(interval, e);
   const std::size_t ka = rings_[interval].sides, kb = rings_[interval + 1].sides;
   const bool cone = interval + 2 == rings_.size() && (pointed_ || end[1] - first[1] == 1);
   regular_[interval] =
@@ -385,24 +393,98 @@ std::uint32_t LimbShape::material(std::size_t interval) const {
              : tree_.trunk.material;
 }
 
-// A ring that is made begins at the seam of the texture, or where the ring before it begins.
-void LimbShape::choose_phases() {
+// Takes the jumps of a texture that repeats out of the sides, and goes on from the ring before it.
+void LimbShape::unwind(std::size_t interval, std::size_t end) {
+  const std::size_t list = 2 * interval + end;
+  const std::span<RingSide> own =
+      std::span(sides_).subspan(first_side_[list], first_side_[list + 1] - first_side_[list]);
+  winding_.push_back({});
+  if (own.empty()) return;
+  Float2 shift{};
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    RingSide& side = own[j];
+    side.at_from = moved(side.at_from, shift), side.at_to = moved(side.at_to, shift);
+    const bool last = j + 1 == own.size();
+    const RingSide& next = own[last ? 0 : j + 1];
+    const double gap = next.from + (last ? k_turn : 0) - side.to;
+    const Float2 jump = moved(last ? next.at_from : moved(next.at_from, shift), side.at_to, -1);
+    const Float2 whole{std::round(jump.x), std::round(jump.y)};
+    if (std::abs(gap) > 1e-6 || !near_texcoord(jump, whole)) continue;
+    if (last) {
+      winding_[list] = moved({}, whole, -1);
+    } else {
+      shift = moved(shift, whole, -1);
+    }
+  }
+  const std::size_t before = list == 0 ? 0 : list - 1;
+  if (before == list || first_side_[before] == first_side_[before + 1]) return;
+  const Float2 apart = moved(texcoord(interval, end == 0 ? interval - 1 : interval, 0, 1),
+                             texcoord(interval + end, interval, 0, 1), -1);
+  const Float2 turns{winding_[list].x == 0 ? 0 : std::round(apart.x),
+                     winding_[list].y == 0 ? 0 : std::round(apart.y)};
+  for (RingSide& side : own) side.at_from = moved(side.at_from, turns), side.at_to = moved(side.at_to, turns);
+}
+
+// All rings of the limb that are made begin at about the same angle, those with the mesh's own vertices at
+// one of them. Where a texture that does not repeat has its seam, they begin there.
+void LimbShape::choose_first_vertices() {
+  double all = 0;
   for (std::size_t i = 0; i < rings_.size(); ++i) {
     RingShape& ring = rings_[i];
-    const double before = i == 0 ? 0 : rings_[i - 1].phase;
-    ring.phase = before;
-    double nearest = k_turn;
-    for (const RingCorner& corner : polygon(i)) {
-      const double off = apart(corner.angle, before);
-      if (off < nearest) nearest = off, ring.phase = corner.angle;
-    }
     const std::size_t interval = i + 1 < rings_.size() ? i : i - 1;
     const std::span<const RingSide> list = sides_of(interval, i - interval);
     for (std::size_t j = 0; j < list.size(); ++j) {
       const RingSide &a = list[j], &b = list[(j + 1) % list.size()];
-      if (apart(a.to, b.from) < 1e-6 && !near_texcoord(a.at_to, b.at_from)) ring.phase = positive(b.from);
+      const Float2 on = moved(b.at_from, winding_[interval + i], j + 1 == list.size() ? 1 : 0),
+                   jump = moved(on, a.at_to, -1);
+      if (apart(a.to, b.from) < 1e-6 && !near_texcoord(jump, {}))
+        ring.seam = true, ring.first = positive(b.from);
     }
+    if (ring.seam || ring.sides == 0) {
+      if (!ring.seam) ring.first = all;
+      continue;
+    }
+    const double step = k_turn / ring.sides;
+    double sum = 0;
+    for (std::size_t j = 0; j < ring.sides; ++j) sum += polygon(i)[j].angle - step * static_cast<double>(j);
+    ring.first = sum / ring.sides;
+    if (i == 0) all = ring.first;
   }
+  first_ = all;
+}
+
+double LimbShape::first_angle(std::size_t i, std::uint32_t sides) const {
+  const RingShape& ring = rings_[i];
+  if (ring.seam) return ring.first;
+  if (sides != ring.sides) return first_;
+  const double step = k_turn / sides;
+  return ring.first + step * std::ceil((first_ - 0.5 * step - ring.first) / step);
+}
+
+double LimbShape::vertex_angle(std::size_t i, std::uint32_t sides, int turned, std::size_t j) const {
+  const RingShape& ring = rings_[i];
+  const double step = k_turn / sides;
+  if (sides != ring.sides) return first_angle(i, sides) + step * (turned + static_cast<double>(j));
+  const std::span<const RingCorner> corners = polygon(i);
+  std::int64_t at = turned + static_cast<std::int64_t>(j);
+  if (ring.seam) {
+    const auto seam = std::lower_bound(corners.begin(), corners.end(), ring.first - 1e-6,
+                                       [](const RingCorner& c, double a) { return c.angle < a; });
+    at += seam - corners.begin();
+  } else {
+    at += std::llround((first_angle(i, sides) - ring.first) / step);
+  }
+  const auto k = static_cast<std::int64_t>(sides);
+  const std::int64_t turns = at >= 0 ? at / k : -((k - 1 - at) / k);
+  return corners[static_cast<std::size_t>(at - turns * k)].angle + k_turn * static_cast<double>(turns);
+}
+
+int LimbShape::turn(std::size_t a, std::size_t b, std::uint32_t sides) const {
+  if (sides < 3 || rings_[a].seam || rings_[b].seam) return 0;
+  const Double3 x = carried(rings_[a].x, rings_[a].axis, rings_[b].axis);
+  const double carried_by = std::atan2(dot(x, rings_[b].y), dot(x, rings_[b].x)), step = k_turn / sides;
+  const double late = first_angle(b, sides) - first_angle(a, sides) - carried_by;
+  return static_cast<int>(std::ceil(-late / step - k_slack));
 }
 
 Double3 LimbShape::sample(std::size_t i, double angle) const {
@@ -429,6 +511,10 @@ Float2 LimbShape::texcoord(std::size_t i, std::size_t interval, double angle, do
     return {texcoord(interval + 1 - e, interval, angle, towards).x, any_texcoord_[interval][e].y};
   }
   const double inside = positive(angle + towards * 1e-3);
+  const double turns = std::floor((angle + towards * 1e-3 - list.front().from) / k_turn);
+  const auto wound = [&](const Float2& at) {
+    return moved(at, winding_[2 * interval + e], static_cast<float>(turns));
+  };
   // The last side that begins before it; where sides overlap or lack, any one round it.
   const auto after = std::upper_bound(list.begin(), list.end(), inside,
                                       [](double a, const RingSide& s) { return a < s.from; });
@@ -438,10 +524,9 @@ Float2 LimbShape::texcoord(std::size_t i, std::size_t interval, double angle, do
     const double at = positive(inside - side.from), width = side.to - side.from;
     if (at > width || width <= 0) continue;
     const auto w = static_cast<float>(std::clamp((at - towards * 1e-3) / width, 0.0, 1.0));
-    return {side.at_from.x + w * (side.at_to.x - side.at_from.x),
-            side.at_from.y + w * (side.at_to.y - side.at_from.y)};
+    return wound(moved(side.at_from, moved(side.at_to, side.at_from, -1), w));
   }
-  return list.front().at_from;
+  return wound(list.front().at_from);
 }
 
 // Off the chord counts; along it a ring may slide.
@@ -459,6 +544,16 @@ double LimbShape::left_behind(std::size_t a, std::size_t b, std::span<const doub
   for (std::size_t i = a + 1; i < b; i += stride, ++taken)
     if (hanging[i] > 0 && off_chord(a, b, i) > hold) sum += hanging[i];
   return sum * static_cast<double>(inner) / static_cast<double>(taken);
+}
+
+// How far a ring lies from the one that is turned as it would be between rings a and b.
+double LimbShape::turned_off(std::size_t a, std::size_t b, std::size_t i, double w) const {
+  const RingShape &low = rings_[a], &high = rings_[b], &ring = rings_[i];
+  if (ring.sides == 0 || low.sides != ring.sides || high.sides != ring.sides) return 0;
+  const double step = k_turn / ring.sides, late = (high.first - low.first) / step;
+  const double by = low.first + w * step * (late + std::ceil(-late - k_slack));
+  return polygon_roughness(ring.sides) * ring.radius *
+         std::abs(std::sin(std::numbers::pi * (ring.first - by) / step));
 }
 
 void LimbShape::errors(std::size_t a, std::size_t b, double& area, double& largest) const {
@@ -490,6 +585,18 @@ double LimbShape::area_error(std::size_t a, std::size_t b) const {
   return area;
 }
 
+double LimbShape::turned_error(std::size_t a, std::size_t b) const {
+  if (b <= a + 1) return 0;
+  const double span = along_[b] - along_[a];
+  const std::size_t inner = b - a - 1, stride = (inner + k_samples - 1) / k_samples;
+  std::size_t taken = 0;
+  double sum = 0;
+  for (std::size_t i = a + 1; i < b; i += stride, ++taken)
+    sum += turned_off(a, b, i, span > 0 ? (along_[i] - along_[a]) / span : 0) * weight(i);
+  return sum / static_cast<double>(taken) * span * static_cast<double>(inner) /
+         static_cast<double>(inner + 1);
+}
+
 double LimbShape::largest_error(std::size_t a, std::size_t b) const {
   double area = 0, largest = 0;
   errors(a, b, area, largest);
@@ -502,16 +609,15 @@ std::uint32_t LimbShape::triangles(std::size_t kept, std::uint32_t sides) const 
   return 2 * sides * bands - (pointed_ ? sides : 0) + (capped_ ? sides - 2 : 0);
 }
 
-Float2 LimbShape::ring_texcoord(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
-                                std::size_t j) const {
+Float2 LimbShape::ring_texcoord(std::size_t i, std::size_t interval, std::uint32_t sides, int turned,
+                                double ribbon_angle, std::size_t j) const {
   if (flat_) return trunk_.vertices[strips_[interval][i - interval][j]].texcoord;
   if (sides == 2) return texcoord(i, interval, ribbon_angle + (j == 0 ? std::numbers::pi : 0), 1);
-  return texcoord(i, interval, rings_[i].phase + k_turn * static_cast<double>(j) / sides,
-                  j == sides ? -1 : 1);
+  return texcoord(i, interval, vertex_angle(i, sides, turned, j), j == sides ? -1 : 1);
 }
 
-void LimbShape::append_ring(std::size_t i, std::size_t interval, std::uint32_t sides, double ribbon_angle,
-                            double wider, std::vector<SpectrumVertex>& out) const {
+void LimbShape::append_ring(std::size_t i, std::size_t interval, std::uint32_t sides, int turned,
+                            double ribbon_angle, double wider, std::vector<SpectrumVertex>& out) const {
   const RingShape& ring = rings_[i];
   if (flat_) {
     for (const std::uint32_t v : strips_[interval][i - interval]) {
@@ -520,7 +626,9 @@ void LimbShape::append_ring(std::size_t i, std::size_t interval, std::uint32_t s
     }
     return;
   }
-  const auto texture = [&](std::size_t j) { return ring_texcoord(i, interval, sides, ribbon_angle, j); };
+  const auto texture = [&](std::size_t j) {
+    return ring_texcoord(i, interval, sides, turned, ribbon_angle, j);
+  };
   if (sides == 2) {
     const Double3 wide = ring.x * std::cos(ribbon_angle) + ring.y * std::sin(ribbon_angle);
     const Double3 face = cross(wide, ring.axis);
@@ -533,7 +641,7 @@ void LimbShape::append_ring(std::size_t i, std::size_t interval, std::uint32_t s
   const std::size_t first = out.size();
   std::vector<Double3> places(sides);
   double perimeter = 0;
-  for (std::uint32_t j = 0; j < sides; ++j) places[j] = sample(i, ring.phase + k_turn * j / sides);
+  for (std::uint32_t j = 0; j < sides; ++j) places[j] = sample(i, vertex_angle(i, sides, turned, j));
   for (std::uint32_t j = 0; j < sides; ++j)
     perimeter += length(across_of(places[(j + 1) % sides] - places[j], ring.axis));
   // As wide, seen from all round, as the ring itself: the mean width of a convex outline is its perimeter /
@@ -543,7 +651,7 @@ void LimbShape::append_ring(std::size_t i, std::size_t interval, std::uint32_t s
   for (std::uint32_t j = 0; j < sides; ++j) {
     const Double3 out_of = places[j] - ring.centre;
     const Double3 off = across_of(out_of, ring.axis);
-    const double at = ring.phase + k_turn * j / sides;
+    const double at = vertex_angle(i, sides, turned, j);
     const bool point = dot(off, off) == 0;
     const Double3 normal = point ? ring.x * std::cos(at) + ring.y * std::sin(at) : normalized(off);
     out.push_back({to_float(ring.centre + out_of * scale), to_float(normal), texture(j)});
@@ -556,8 +664,8 @@ std::array<SpectrumVertex, 3> LimbShape::spike(double ribbon_angle) const {
   const std::size_t last = rings_.size() - 1;
   std::vector<SpectrumVertex> low, high;
   const std::uint32_t ends[] = {0, static_cast<std::uint32_t>(last)};
-  append_ring(0, 0, 2, ribbon_angle, wider(ends), low);
-  append_ring(last, last - 1, 2, ribbon_angle, 1, high);
+  append_ring(0, 0, 2, 0, ribbon_angle, wider(ends), low);
+  append_ring(last, last - 1, 2, 0, ribbon_angle, 1, high);
   const double first_width = width(0, 0) * rings_[0].perimeter;
   const double both =
       first_width > 0 ? 1 + (flat_ ? k_blade : 1.0) * rings_[last].perimeter / first_width : 1;

@@ -101,6 +101,7 @@ class LimbTubes {
   // The vertices of a ring as the interval before or behind it has them.
   struct Ring {
     std::uint32_t sides = 0, first = 0;
+    int turned = 0;
     double wider = 1;
   };
 
@@ -134,28 +135,32 @@ class LimbTubes {
 
   // Where the numbers of the vertices of a ring as they are in an interval begin in numbers_; equal vertices
   // of both intervals are shared.
-  std::uint32_t ring(std::uint32_t i, std::uint32_t interval, std::uint32_t sides, double wider) {
+  std::uint32_t ring(std::uint32_t i, std::uint32_t interval, std::uint32_t sides, int turned, double wider) {
     Ring& own = rings_[2 * i + (i == interval ? 1 : 0)];
-    if (own.sides == sides && own.wider == wider) return own.first;
-    own = {sides, static_cast<std::uint32_t>(numbers_.size()), wider};
+    if (own.sides == sides && own.turned == turned && own.wider == wider) return own.first;
+    own = {sides, static_cast<std::uint32_t>(numbers_.size()), turned, wider};
     const Ring& other = rings_[2 * i + (i == interval ? 0 : 1)];
     const bool alike = other.sides == sides && other.wider == wider &&
                        (i == 0 || shape_.width(i, i) == shape_.width(i, i - 1));
+    const auto in_other = [&](std::size_t j) {
+      const std::int64_t k = sides, at = static_cast<std::int64_t>(j) + turned - other.turned;
+      return other.first + static_cast<std::size_t>(at >= 0 && at <= k ? at : (at % k + k) % k);
+    };
     scratch_.clear();
     if (alike) {
       for (std::uint32_t j = 0; j < (sides == 2 ? 2 : sides + 1); ++j) {
-        scratch_.push_back(made(numbers_[other.first + j]));
-        scratch_.back().texcoord = shape_.ring_texcoord(i, interval, sides, ribbon_angle(), j);
+        scratch_.push_back(made(numbers_[in_other(j)]));
+        scratch_.back().texcoord = shape_.ring_texcoord(i, interval, sides, turned, ribbon_angle(), j);
       }
     } else {
-      shape_.append_ring(i, interval, sides, ribbon_angle(), wider, scratch_);
+      shape_.append_ring(i, interval, sides, turned, ribbon_angle(), wider, scratch_);
     }
     for (std::size_t j = 0; j < scratch_.size(); ++j) {
       const SpectrumVertex& v = scratch_[j];
       if (j == sides && v.texcoord == scratch_[0].texcoord) {
         numbers_.push_back(numbers_[own.first]);
-      } else if (alike && made(numbers_[other.first + j]) == v) {
-        numbers_.push_back(numbers_[other.first + j]);
+      } else if (alike && made(numbers_[in_other(j)]) == v) {
+        numbers_.push_back(numbers_[in_other(j)]);
       } else {
         numbers_.push_back(make(v));
       }
@@ -170,7 +175,8 @@ class LimbTubes {
       return;
     }
     const bool point = last && shape_.pointed();
-    const std::uint32_t first_low = ring(a, a, sides, wider), first_high = ring(b, b - 1, sides, wider);
+    const std::uint32_t first_low = ring(a, a, sides, 0, wider),
+                        first_high = ring(b, b - 1, sides, shape_.turn(a, b, sides), wider);
     const auto low = [&](std::uint32_t j) { return numbers_[first_low + j]; };
     const auto high = [&](std::uint32_t j) { return numbers_[first_high + j]; };
     if (sides == 2) {
