@@ -64,29 +64,17 @@ TEST(CrownField, MeasuresHowFarTheFoliageIs) {
   EXPECT_EQ(field.at({0, 7, 0}).openness, 1);
 }
 
-TEST(CrownField, BringsPointsBackIntoTheHull) {
+TEST(CrownField, KnowsTheHullOfItsFoliage) {
   const CrownField field(filled_cube(8, 0.1), 8);
-  const std::vector<Double3> inside{{0.5, 0.5, 0.5}}, outside{{1.5, 0.5, 0.5}};
-  EXPECT_EQ(field.way_back(inside, 0), Double3{});
-  const Double3 back = field.way_back(outside, 0);
-  EXPECT_NEAR(back.x, -0.5, 0.08);
-  EXPECT_NEAR(back.y, 0, 0.08);
-  EXPECT_NEAR(field.width(), std::sqrt(3.0), 0.15);
-}
-
-TEST(CrownField, WhatIsSurroundedIsInsideTheHull) {
-  const CrownField field(filled_cube(16, 0.1), 16);
-  EXPECT_TRUE(field.surrounded({0.5, 0.5, 0.5}));
-  EXPECT_FALSE(field.surrounded({0.5, 0.5, 0.999}));
-  EXPECT_FALSE(field.surrounded({0.5, 0.5, 2}));
-  const Double3 inside{0.5, 0.4, 0.6};
-  EXPECT_EQ(field.excess(std::span(&inside, 1)), 0);
+  const std::vector<Double3> outside{{1.5, 0.5, 0.5}};
+  EXPECT_NEAR(field.hull().way_back(outside, 0).x, -0.5, 0.08);
+  EXPECT_NEAR(field.hull().width(), std::sqrt(3.0), 0.15);
 }
 
 TEST(CrownField, OfNothingOrOfOnePlaceIsDefined) {
   const CrownField none({}, 8);
   EXPECT_EQ(none.cross_section(), 0);
-  EXPECT_TRUE(is_finite(none.way_back(std::vector<Double3>{{1, 2, 3}}, 0.1)));
+  EXPECT_LT(none.hull().width(), 0);
   const std::vector<FoliageTriangle> point{{{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}}, 1}};
   const CrownField one(point, 8);
   EXPECT_GT(one.exposure({1, 1, 1}), 0);

@@ -1,7 +1,5 @@
 #include "lib/analysis/lod/crown_field.h"
 
-#include "lib/analysis/measure/view_sphere.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,17 +9,6 @@ namespace {
 
 // A triangle is sampled about once a half cell, but never more often than this along a side.
 constexpr int k_most_samples = 64;
-
-// Of moves, each along one direction: a shape that fits is in after a few; one that does not fit is left.
-constexpr int k_rounds = 8;
-constexpr int k_hull_subdivisions = 3;  // 642 directions, each with its opposite
-
-// One of a direction and its opposite.
-bool ahead(const Double3& d) {
-  constexpr double k_none = 1e-9;
-  if (std::abs(d.z) > k_none) return d.z > 0;
-  return std::abs(d.y) > k_none ? d.y > 0 : d.x > 0;
-}
 
 // One pass of the exact distance transform along a line (Felzenszwalb, Huttenlocher 2012): the lower envelope
 // of parabolas.
@@ -48,7 +35,7 @@ void transform_line(std::vector<float>& f, std::vector<float>& out, std::vector<
 
 }  // namespace
 
-CrownField::CrownField(std::span<const FoliageTriangle> triangles, int cells) {
+CrownField::CrownField(std::span<const FoliageTriangle> triangles, int cells, double reach) {
   DoubleBox box;
   for (const FoliageTriangle& t : triangles)
     for (const Double3& p : t.corners) box.grow(p);
@@ -66,7 +53,7 @@ CrownField::CrownField(std::span<const FoliageTriangle> triangles, int cells) {
   see();
   measure_distances();
   measure_cross_section();
-  measure_hull(triangles);
+  measure_hull(triangles, reach);
 }
 
 std::array<int, 3> CrownField::cell_of(const Double3& p, double& outside) const {
@@ -87,10 +74,12 @@ void CrownField::deposit(const FoliageTriangle& t) {
   const double area = 0.5 * length(cross(e, f)), side = std::max(length(e), length(f));
   const int n = std::clamp(static_cast<int>(std::ceil(2 * side / cell_)), 1, k_most_samples);
   const auto share = static_cast<float>(area / (cell_ * cell_) * t.opacity / (double(n) * n));
-  double outside = 0;
+  const Double3 at = (t.corners[0] - low_) * per_cell_, u_way = e * per_cell_, v_way = f * per_cell_;
   const auto put = [&](double u, double v) {
-    const auto [x, y, z] = cell_of(t.corners[0] + e * u + f * v, outside);
-    area_[index(x, y, z)] += share, full_[index(x, y, z)] = 1;
+    const Double3 p = at + u_way * u + v_way * v;
+    const auto cell = [&](int a) { return std::clamp(static_cast<int>(p[a]), 0, size_[a] - 1); };
+    const std::size_t i = index(cell(0), cell(1), cell(2));
+    area_[i] += share, full_[i] = 1;
   };
   // The middles of the n^2 triangles into which it is cut.
   for (int i = 0; i < n; ++i)
@@ -195,102 +184,17 @@ void CrownField::find_outer_cells() {
   }
 }
 
-void CrownField::measure_hull(std::span<const FoliageTriangle> triangles) {
+void CrownField::measure_hull(std::span<const FoliageTriangle> triangles, double reach) {
   find_outer_cells();
   std::vector<Double3> points;
   for (const FoliageTriangle& t : triangles) {
     for (const Double3& p : t.corners) {
       double outside = 0;
       const auto [x, y, z] = cell_of(p, outside);
-      if (outer_[index(x, y, z)] != 0) points.push_back(p - low_);
+      if (outer_[index(x, y, z)] != 0) points.push_back(p);
     }
   }
-  const std::vector<Double3> directions = view_sphere(k_hull_subdivisions).directions;
-  width_ = points.empty() ? -1 : 0;
-  std::array<double, k_axes> highest{}, lowest{};
-  std::size_t axis = 0;
-  for (const Double3& d : directions) {
-    if (!ahead(d) || axis == k_axes) continue;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Double3& p : points) {
-      const double along = dot(p, d);
-      low = std::min(low, along), high = std::max(high, along);
-    }
-    for (int a = 0; a < 3; ++a) axes_[a][axis] = static_cast<float>(d[a]);
-    highest[axis] = high, lowest[axis] = low, ++axis;
-    width_ = std::max(width_, high - low);
-  }
-  if (points.empty()) return;
-  const double scale = per_width();
-  for (std::size_t k = 0; k < k_axes; ++k)
-    highest_[k] = static_cast<float>(highest[k] * scale), lowest_[k] = static_cast<float>(lowest[k] * scale);
-}
-
-double CrownField::per_width() const {
-  return width_ > 0 ? 1 / width_ : 1;
-}
-
-void CrownField::reach_of(std::span<const Double3> points, Reach& reach) const {
-  reach.along.fill(-std::numeric_limits<float>::infinity());
-  reach.against.fill(-std::numeric_limits<float>::infinity());
-  const double scale = per_width();
-  for (const Double3& p : points) {
-    const Float3 q = to_float((p - low_) * scale);
-    for (std::size_t d = 0; d < k_axes; ++d) {
-      const float at = q.x * axes_[0][d] + q.y * axes_[1][d] + q.z * axes_[2][d];
-      const float over = at - highest_[d], under = lowest_[d] - at;
-      reach.along[d] = over > reach.along[d] ? over : reach.along[d];
-      reach.against[d] = under > reach.against[d] ? under : reach.against[d];
-    }
-  }
-  find_most(reach);
-}
-
-void CrownField::find_most(Reach& reach) {
-  float most = -std::numeric_limits<float>::infinity();
-  for (std::size_t d = 0; d < k_axes; ++d) {
-    const float either = reach.along[d] > reach.against[d] ? reach.along[d] : reach.against[d];
-    most = either > most ? either : most;
-  }
-  reach.most = most, reach.axis = 0;
-  while (reach.axis + 1 < k_axes && reach.along[reach.axis] != most && reach.against[reach.axis] != most)
-    ++reach.axis;
-  reach.sign = reach.along[reach.axis] == most ? 1.0f : -1.0f;
-}
-
-Double3 CrownField::way_back(std::span<const Double3> points, double margin) const {
-  Double3 moved{};
-  if (!(width_ >= 0)) return moved;  // no foliage, no hull
-  Reach reach;
-  reach_of(points, reach);
-  for (int round = 0; round < k_rounds; ++round) {
-    const double worst = reach.most * width_ - margin;
-    if (!(worst > 0)) break;
-    const Double3 axis{axes_[0][reach.axis], axes_[1][reach.axis], axes_[2][reach.axis]};
-    const Double3 back = axis * (reach.sign * worst);
-    moved -= back;
-    const Float3 b = to_float(back * per_width());
-    for (std::size_t d = 0; d < k_axes; ++d) {
-      const float by = b.x * axes_[0][d] + b.y * axes_[1][d] + b.z * axes_[2][d];
-      reach.along[d] -= by, reach.against[d] += by;
-    }
-    find_most(reach);
-  }
-  return moved;
-}
-
-double CrownField::excess(std::span<const Double3> points) const {
-  if (!(width_ >= 0)) return 0;
-  Reach reach;
-  reach_of(points, reach);
-  return std::max(0.0, double(reach.most) / per_width());
-}
-
-bool CrownField::surrounded(const Double3& p) const {
-  double outside = 0;
-  const auto [x, y, z] = cell_of(p, outside);
-  const std::size_t cell = index(x, y, z);
-  return !(outside > 0) && full_[cell] != 0 && outer_[cell] == 0;
+  hull_ = CrownHull(points, reach);
 }
 
 double CrownField::exposure(const Double3& p) const {

@@ -7,6 +7,7 @@
 // one.
 #pragma once
 
+#include "lib/analysis/lod/crown_hull.h"
 #include "lib/formats/mesh.h"
 
 #include <array>
@@ -23,9 +24,9 @@ struct FoliageTriangle {
 
 class CrownField {
  public:
-  // `cells`: along the longest side of the box, 1 to 256. Linear in triangles (those larger than a cell count
-  // by the cells that they cross) and in cells.
-  CrownField(std::span<const FoliageTriangle> triangles, int cells);
+  // `cells`: along the longest side of the box, 1 to 256. `reach`: the hull's. Linear in triangles (those
+  // larger than a cell count by the cells that they cross) and in cells.
+  CrownField(std::span<const FoliageTriangle> triangles, int cells, double reach = 0);
 
   // The share of the directions of the sphere from which the middle of the cell at `p` is seen, (0, 1]; mean
   // over 26 directions. 1 outside of the grid.
@@ -40,17 +41,8 @@ class CrownField {
     float emptiness = 0;
   };
   Place at(const Double3& p) const;
-  // Whether it is in a cell with foliage that has others before and behind it along all axes: no such place
-  // is out of the foliage's hull.
-  bool surrounded(const Double3& p) const;
-  // The shortest move, found direction by direction, that brings the points back to within `margin` of the
-  // foliage's convex hull, as far as 642 directions know it. Zero when they are there.
-  Double3 way_back(std::span<const Double3> points, double margin) const;
-  // How far the points reach out of that hull, metres; 0 inside.
-  double excess(std::span<const Double3> points) const;
-  double width() const {
-    return width_;
-  }  // of the foliage, the largest over those directions; < 0: there is none
+  // The foliage's convex hull.
+  const CrownHull& hull() const { return hull_; }
   // The mean over the three axes of the area of the crown's silhouette, to a cell.
   double cross_section() const { return cross_section_; }
   double cell() const { return cell_; }
@@ -66,30 +58,17 @@ class CrownField {
   void measure_distances();
   void measure_cross_section();
   void find_outer_cells();
-  // A hull is known along 642 directions: two along each of these.
-  static constexpr std::size_t k_axes = 321;
-  // How far out the farthest of some points are beyond the hull, in widths: along an axis, and against it.
-  struct Reach {
-    std::array<float, k_axes> along, against;
-    float most = 0;
-    std::size_t axis = 0;
-    float sign = 1;  // of the direction of the most
-  };
-  void reach_of(std::span<const Double3> points, Reach& reach) const;
-  static void find_most(Reach& reach);
-  double per_width() const;  // 1 where it has none
-  void measure_hull(std::span<const FoliageTriangle> triangles);
+  void measure_hull(std::span<const FoliageTriangle> triangles, double reach);
 
   Double3 low_{};
-  double cell_ = 1, per_cell_ = 1, cross_section_ = 0, width_ = 0;
+  double cell_ = 1, per_cell_ = 1, cross_section_ = 0;
   std::array<int, 3> size_{1, 1, 1};
   std::vector<float>
       area_;  // of foliage in the cell, opaque part, in cell sides squared: of any size of tree
   std::vector<std::uint8_t> full_, outer_;
   std::vector<float> exposure_;
   std::vector<Place> places_;
-  std::array<std::array<float, k_axes>, 3> axes_{};  // coordinates
-  std::array<float, k_axes> highest_{}, lowest_{};   // of the foliage along each axis, widths from low_
+  CrownHull hull_;
 };
 
 }  // namespace copse

@@ -9,24 +9,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
 namespace copse {
 namespace {
 
-constexpr int k_window = 4;       // neighbours looked at on each side
-constexpr double k_round = 0.25;  // of the leaves: how many at most go in a round
-constexpr double k_asked = 0.25;  // of the leaves: when so many have gone it is asked whether to go on
-constexpr int k_guests = 2;       // of one host in a round
-constexpr float k_other = 0.04f;  // what ground counts that shows another leaf, beside one lost or gained
+constexpr std::size_t k_window = 4;  // neighbours looked at on each side
+constexpr double k_round = 0.25;     // of the leaves: how many at most go in a round
+constexpr double k_asked = 0.25;     // of the leaves: when so many have gone it is asked whether to go on
+constexpr int k_guests = 2;          // of one host in a round
+constexpr float k_other = 0.04f;     // what ground counts that shows another leaf, beside one lost or gained
 constexpr float k_near = 0.005f;  // of what a match covers: what one as far apart as the crown is wide costs
 constexpr float k_stranger = 4;   // squared: how much farther leaves of another group are
 constexpr double k_largest = 0.36;  // of the crown's cross-section: a leaf that fits inside
-constexpr double k_margin = 0.012;  // of the crown's width, out of its hull
 constexpr double k_hidden = 0.02;   // of a leaf: if it covers no more alone, it may be anywhere
 constexpr int k_views = 6;          // from which it is seen what hides behind what,
 constexpr double k_samples = 12;    // in so many points of a leaf,
+constexpr float k_few = 1.5f;       // pixels: less is drawn as points
 constexpr float k_doubt = 3;        // of which the field's word is worth so many
 constexpr float k_kept = 0.35f;     // of a leaf's ground, what even a host at its place does not cover
 
@@ -48,6 +49,34 @@ struct Offer {
   }
 };
 
+using Four [[gnu::vector_size(16)]] = float;
+using FourNumbers [[gnu::vector_size(16)]] = std::uint32_t;
+
+template <class To, class From>
+To four_at(const From* first) {
+  To four;
+  std::memcpy(&four, first, sizeof four);
+  return four;
+}
+
+// The alive leaves in columns, and as many more that are no one's host.
+struct Neighbours {
+  std::vector<float> x, y, z, area, sole, seen, harm, full;  // full: infinite for one that is
+  std::vector<std::uint32_t> group;
+
+  void take(std::span<const Leaf> leaves) {
+    for (std::vector<float>* column : {&x, &y, &z, &area, &sole, &seen, &harm})
+      column->assign(leaves.size() + k_window, 0);
+    full.assign(leaves.size() + k_window, std::numeric_limits<float>::infinity());
+    group.assign(leaves.size() + k_window, k_none);
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const Leaf& l = leaves[i];
+      x[i] = l.centre.x, y[i] = l.centre.y, z[i] = l.centre.z, area[i] = l.area, sole[i] = l.sole;
+      seen[i] = l.seen, harm[i] = l.harm, group[i] = l.group, full[i] = l.full ? full[i] : 0;
+    }
+  }
+};
+
 CrownField field_of(const LeafPieces& pieces) {
   std::vector<FoliageTriangle> triangles(pieces.part.triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -55,7 +84,8 @@ CrownField field_of(const LeafPieces& pieces) {
       triangles[t].corners[c] = to_double(pieces.part.vertices[pieces.part.triangles[t][c]].position);
     triangles[t].opacity = pieces.opacity_of(t);
   }
-  return {triangles, std::clamp(static_cast<int>(std::cbrt(double(triangles.size()))), 8, 64)};
+  return {triangles, std::clamp(static_cast<int>(std::cbrt(double(triangles.size()))), 8, 64),
+          k_quick_margin};
 }
 
 const AlphaMask* mask_of(const Looks& looks, std::uint32_t m) {
@@ -68,7 +98,7 @@ class Agglomeration {
                 LeafElements& elements)
       : pieces_(pieces), field_(field), ancestors_(ancestors), elements_(elements) {
     largest_ = k_largest * field_.cross_section();
-    const double width = field_.width();
+    const double width = field_.hull().width();
     per_width_ = width > 0 ? static_cast<float>(1 / (width * width)) : 0;
     gather();
   }
@@ -162,6 +192,7 @@ class Agglomeration {
                                              .samples = k_samples,
                                              .other = k_other,
                                              .coverage = Occlusion::k_coverage,
+                                             .few = k_few,
                                              .least = 1 + std::size_t(least),
                                              .prior = prior});
     if (o.gone.empty()) return;
@@ -200,32 +231,37 @@ class Agglomeration {
     elements_.show_at(alive_.size() == 1 ? 0 : triangles_);
   }
 
-  // Every leaf's best host.
+  // Every leaf's best host, four neighbours side by side.
   void find_hosts() {
-    const auto n = static_cast<std::uint32_t>(alive_.size());
-    offers_.resize(n);
-    for (std::uint32_t i = 0; i < n; ++i)  // where all are full
-      offers_[i] = {std::numeric_limits<float>::max(), i, i + 1 < n ? i + 1 : i - 1};
+    const std::size_t n = alive_.size();
+    near_.take(alive_);
+    price_.assign(n + k_window, std::numeric_limits<float>::max()), host_of_.resize(n + k_window);
+    for (std::size_t i = 0; i < n; ++i)  // where all are full
+      host_of_[i] = static_cast<std::uint32_t>(i + 1 < n ? i + 1 : i - 1);
     const auto largest = static_cast<float>(largest_);
-    for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; ++i) {
       const Leaf& a = alive_[i];
-      const std::uint32_t end = std::min(n, i + k_window + 1);
-      for (std::uint32_t j = i + 1; j < end; ++j) {
-        const Leaf& b = alive_[j];
-        const Float3 d = a.centre - b.centre;
-        const float apart = dot(d, d), area = a.area + b.area;
-        const float lost = area > 0 ? std::min(k_kept + 0.5f * apart / area, 1.0f) : 0;
-        const float far = k_near * area * apart * per_width_ * (a.group == b.group ? 1 : k_stranger) +
-                          (largest > 0 && area > largest ? 20 * (area - largest) : 0);
-        if (!a.full) offer(j, i, far + lost * (b.sole + a.harm * b.area) + k_other * b.seen);
-        if (!b.full) offer(i, j, far + lost * (a.sole + b.harm * a.area) + k_other * a.seen);
+      const auto b = [&](const std::vector<float>& all) { return four_at<Four>(&all[i + 1]); };
+      const Four dx = a.centre.x - b(near_.x), dy = a.centre.y - b(near_.y), dz = a.centre.z - b(near_.z);
+      const Four apart = dx * dx + dy * dy + dz * dz, area = a.area + b(near_.area),
+                 share = k_kept + 0.5f * apart / area;
+      const Four lost = area > 0 ? (share < 1 ? share : Four{} + 1) : Four{};
+      const Four strange =
+          four_at<FourNumbers>(&near_.group[i + 1]) == a.group ? Four{} + 1 : Four{} + k_stranger;
+      const Four over = 20 * (area - largest);
+      const Four far =
+          k_near * area * apart * per_width_ * strange + ((largest > 0) & (area > largest) ? over : Four{});
+      const Four b_goes =
+          far + lost * (b(near_.sole) + a.harm * b(near_.area)) + k_other * b(near_.seen) + near_.full[i];
+      const Four a_goes = far + lost * (a.sole + b(near_.harm) * a.area) + k_other * a.seen + b(near_.full);
+      for (std::size_t k = 0; k < k_window; ++k) {
+        const std::size_t j = i + 1 + k;
+        if (b_goes[k] < price_[j]) price_[j] = b_goes[k], host_of_[j] = static_cast<std::uint32_t>(i);
+        if (a_goes[k] < price_[i]) price_[i] = a_goes[k], host_of_[i] = static_cast<std::uint32_t>(j);
       }
     }
-  }
-
-  void offer(std::uint32_t guest, std::uint32_t host, float price) {
-    Offer& o = offers_[guest];
-    if (price < o.price) o.price = price, o.host = host;
+    offers_.resize(n);
+    for (std::uint32_t i = 0; i < n; ++i) offers_[i] = {price_[i], i, host_of_[i]};
   }
 
   std::size_t merge(const Offer& o, bool cut) {
@@ -312,18 +348,12 @@ class Agglomeration {
 
   bool scale(DrawnLeaf& leaf, const DrawnLeaf& source, const Double3& fixed, double by) const {
     std::array<Double3, 4> corners;
-    bool outside = false;
-    for (std::uint32_t k = 0; k < leaf.corners; ++k) {
+    for (std::uint32_t k = 0; k < leaf.corners; ++k)
       corners[k] = fixed + (to_double(source.corner[k].position) - fixed) * by;
-      outside = outside || !field_.surrounded(corners[k]);
-    }
     const auto all = std::span(corners).first(leaf.corners);
-    const double margin = k_margin * std::max(field_.width(), 0.0);
-    if (outside && field_.excess(all) > margin) {
-      const Double3 back = field_.way_back(all, 0.9 * margin);
-      for (Double3& c : all) c += back;
-      if (field_.excess(all) > margin) return false;
-    }
+    const auto move = field_.hull().move_in(all, k_quick_margin, 0.9 * k_quick_margin);
+    if (!move) return false;
+    for (Double3& c : all) c += *move;
     for (std::uint32_t k = 0; k < leaf.corners; ++k) leaf.corner[k].position = to_float(corners[k]);
     return true;
   }
@@ -353,6 +383,9 @@ class Agglomeration {
   double largest_ = 0;
   float per_width_ = 0;
   std::vector<Leaf> alive_;  // in the order of the curve
+  Neighbours near_;
+  std::vector<float> price_;            // that each alive leaf's best host asks,
+  std::vector<std::uint32_t> host_of_;  // and which that is
   std::vector<Offer> offers_;
   std::vector<std::uint8_t> taken_;  // guests of each alive leaf in this round
   std::vector<Node> nodes_;

@@ -21,6 +21,9 @@
 
 namespace copse {
 
+// Of the crown's width, out of its hull: no leaf is merged into one that reaches farther.
+inline constexpr double k_quick_margin = 0.012;
+
 // What has become of the leaves of a LeafElements.
 struct QuickMerges {
   struct Leaf {

@@ -63,7 +63,7 @@ CrownField field_of(const LeafPieces& pieces, int cells) {
       triangles[t].corners[c] = to_double(pieces.part.vertices[pieces.part.triangles[t][c]].position);
     triangles[t].opacity = pieces.opacity_of(t);
   }
-  return {triangles, cells > 0 ? cells : cells_for(triangles.size())};
+  return {triangles, cells > 0 ? cells : cells_for(triangles.size()), k_quick_margin};
 }
 
 using Drawn = DrawnLeaf;
@@ -539,9 +539,10 @@ class Collapse {
     return out;
   }
 
-  bool inside(std::span<const Double3> corners) const {
-    return field_.excess(corners) <= 1.1 * k_margin * std::max(field_.width(), 0.0);
+  Double3 way_back(std::span<const Double3> corners) const {
+    return field_.hull().way_back(corners, k_margin * field_.hull().width());
   }
+  bool inside(std::span<const Double3> corners) const { return field_.hull().fits(corners, 1.1 * k_margin); }
 
   // The leaf itself, grown about its centre (0) or one of its vertices (1, ...).
   // Nothing when it does not fit into the crown's hull.
@@ -551,16 +552,10 @@ class Collapse {
     const Double3 fixed = about == 0 ? out.centre() : to_double(out.corner[about - 1].position);
     const double by = now > 0 ? std::sqrt(area / now) : 1;
     Corners corners;
-    bool outside = false;
-    for (const SpectrumVertex& v : out.own()) {
-      corners.push(fixed + (to_double(v.position) - fixed) * by);
-      outside = outside || !field_.surrounded(corners.at[corners.count - 1]);
-    }
-    if (outside && !inside(corners.span())) {
-      const Double3 back = field_.way_back(corners.span(), k_margin * field_.width());
-      for (Double3& c : corners.span()) c += back;
-      if (!inside(corners.span())) return {};
-    }
+    for (const SpectrumVertex& v : out.own()) corners.push(fixed + (to_double(v.position) - fixed) * by);
+    const auto move = field_.hull().move_in(corners.span(), 1.1 * k_margin, k_margin);
+    if (!move) return {};
+    for (Double3& c : corners.span()) c += *move;
     for (std::size_t c = 0; c < corners.count; ++c) out.corner[c].position = to_float(corners.at[c]);
     return out;
   }
@@ -572,7 +567,7 @@ class Collapse {
       Double3 centre{};
       for (const Double3& c : corners) centre += c / double(corners.size());
       for (Double3& c : corners) c = centre + (c - centre) * k_cut;
-      const Double3 back = field_.way_back(corners, k_margin * field_.width());
+      const Double3 back = way_back(corners);
       for (Double3& c : corners) c += back;
     }
   }

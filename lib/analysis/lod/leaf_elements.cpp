@@ -74,9 +74,12 @@ DrawnLeaf LeafElements::drawn(std::uint32_t node) {
 void LeafElements::merge(std::span<const std::uint32_t> nodes, const DrawnLeaf& leaf, std::uint32_t material,
                          std::uint32_t radius) {
   if (held_) {
+    const std::uint32_t before = pending_of_[nodes.front()];
     for (const std::uint32_t n : nodes) pending_of_[n] = k_gone;
-    pending_of_[nodes.front()] = static_cast<std::uint32_t>(pending_.size());
-    pending_.push_back({leaf, material, radius});
+    const bool again = before < pending_.size();
+    pending_of_[nodes.front()] = again ? before : static_cast<std::uint32_t>(pending_.size());
+    if (!again) pending_.emplace_back();
+    pending_[pending_of_[nodes.front()]] = {leaf, material, radius};
     return;
   }
   builder_.step(0);

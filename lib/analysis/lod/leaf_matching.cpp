@@ -210,6 +210,30 @@ class Matching {
   std::vector<std::uint8_t> gone_;
 };
 
+struct Keyed {
+  std::uint64_t key;
+  std::uint32_t number;
+};
+
+// Of equal keys the first stays first.
+void sort_by_key(std::vector<Keyed>& all) {
+  constexpr std::size_t k_few = 512;
+  constexpr int k_bits = 11, k_key_bits = 63;
+  if (all.size() < k_few) {
+    std::stable_sort(all.begin(), all.end(), [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
+    return;
+  }
+  std::vector<Keyed> other(all.size());
+  for (int shift = 0; shift < k_key_bits; shift += k_bits) {
+    std::array<std::uint32_t, (1 << k_bits) + 1> first{};
+    const auto digit = [&](const Keyed& k) { return k.key >> shift & ((1u << k_bits) - 1); };
+    for (const Keyed& k : all) ++first[digit(k) + 1];
+    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+    for (const Keyed& k : all) other[first[digit(k)]++] = k;
+    all.swap(other);
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> curve_order(std::span<const Double3> points) {
@@ -221,16 +245,16 @@ std::vector<std::uint32_t> curve_order(std::span<const Double3> points) {
     return static_cast<std::uint64_t>(std::isfinite(scale) ? std::clamp(v * scale, 0.0, double(0x1fffff))
                                                            : 0);
   };
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+  std::vector<Keyed> keyed;
   keyed.reserve(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     const Double3 c = points[i] - box.min;
-    keyed.emplace_back(spread(cell(c.x)) | spread(cell(c.y)) << 1 | spread(cell(c.z)) << 2, i);
+    keyed.push_back({spread(cell(c.x)) | spread(cell(c.y)) << 1 | spread(cell(c.z)) << 2, i});
   }
-  std::sort(keyed.begin(), keyed.end());
+  sort_by_key(keyed);
   std::vector<std::uint32_t> order;
   order.reserve(keyed.size());
-  for (const auto& [key, i] : keyed) order.push_back(i);
+  for (const Keyed& k : keyed) order.push_back(k.number);
   return order;
 }
 

@@ -1,6 +1,7 @@
 #include "lib/analysis/lod/leaf_occlusion.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <queue>
@@ -29,35 +30,77 @@ double area_of(const ViewedLeaf& leaf) {
   return sum;
 }
 
+// A number from 0 to 1 of the i-th of a sequence that fills the interval evenly (Weyl's), exactly.
+constexpr std::uint32_t k_golden = 0x9e3779b9u;                         // 2^32 over the golden ratio
+constexpr std::uint32_t k_first = 0xc13fa9a9u, k_second = 0x91e10da5u;  // the same for pairs of numbers
+float part(std::uint32_t i) {
+  return static_cast<float>(i >> 8) * 0x1p-24f;
+}
+
+// All leaves' triangles round the ball's centre, leaf after leaf.
+struct Scene {
+  struct Flat {
+    Float3 at, e, f;  // a corner, and from it to the others
+    std::array<Float2, 3> texcoords;
+    std::uint32_t seed;  // of equal places equal
+  };
+  std::vector<Flat> triangles;
+  std::vector<std::uint32_t> first;  // of each leaf, and one number more
+  std::vector<const AlphaMask*> masks;
+
+  Scene(std::span<const ViewedLeaf> leaves, const Double3& centre) {
+    first.reserve(leaves.size() + 1), masks.reserve(leaves.size()), triangles.reserve(leaves.size());
+    for (const ViewedLeaf& leaf : leaves) {
+      first.push_back(static_cast<std::uint32_t>(triangles.size())), masks.push_back(leaf.mask);
+      for (const auto& t : leaf.triangles) {
+        const SpectrumVertex &a = leaf.vertices[t[0]], &b = leaf.vertices[t[1]], &c = leaf.vertices[t[2]];
+        const Float3 at = to_float(to_double(a.position) - centre);
+        triangles.push_back({at,
+                             to_float(to_double(b.position) - centre) - at,
+                             to_float(to_double(c.position) - centre) - at,
+                             {a.texcoord, b.texcoord, c.texcoord},
+                             seed_of(a.position) + seed_of(b.position) + seed_of(c.position)});
+      }
+    }
+    first.push_back(static_cast<std::uint32_t>(triangles.size()));
+  }
+
+ private:
+  static std::uint32_t seed_of(const Float3& p) {
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+    const std::uint32_t h = (bits(p.x) * k_first ^ bits(p.y)) * k_second ^ bits(p.z);
+    return (h ^ h >> 15) * k_golden;
+  }
+};
+
 // One picture: of each pixel the leaves that cover it, the nearest first.
 class Layers {
  public:
-  void draw(std::span<const ViewedLeaf> leaves, const Double3& centre, const LeafEye& eye) {
-    std::vector<float> depth;
+  void draw(const Scene& scene, std::size_t samples, float few, const LeafEye& eye) {
     const std::size_t pixels = std::size_t(eye.width) * std::size_t(eye.height);
     std::vector<std::uint32_t> last;  // leaf of more than two triangles, which may cover a pixel twice
-    first_of_leaf_.reserve(leaves.size() + 1);
-    for (std::uint32_t l = 0; l < leaves.size(); ++l) {
+    first_of_leaf_.reserve(scene.first.size()), pixel_.reserve(samples), depth_.reserve(samples);
+    for (std::uint32_t l = 0; l < scene.masks.size(); ++l) {
       first_of_leaf_.push_back(std::uint32_t(pixel_.size()));
-      const ViewedLeaf& leaf = leaves[l];
-      const bool folded = leaf.triangles.size() > 2;
+      const bool folded = scene.first[l + 1] - scene.first[l] > 2;
       if (folded && last.empty()) last.assign(pixels, 0);
-      for (const auto& t : leaf.triangles) {
-        std::array<Float3, 3> corners;
-        std::array<Float2, 3> texcoords;
-        for (int c = 0; c < 3; ++c) {
-          const SpectrumVertex& v = leaf.vertices[t[c]];
-          corners[c] = eye.project(to_float(to_double(v.position) - centre)), texcoords[c] = v.texcoord;
+      for (std::uint32_t t = scene.first[l]; t < scene.first[l + 1]; ++t) {
+        const Scene::Flat& flat = scene.triangles[t];
+        const Float3 at = eye.project(flat.at), e = along(eye, flat.e), f = along(eye, flat.f);
+        const float area = 0.5f * std::abs(e.x * f.y - e.y * f.x);
+        if (area < few) {
+          draw_points(at, e, f, area, flat, scene.masks[l], eye);
+          continue;
         }
-        for_each_leaf_pixel(corners, texcoords, leaf.mask, eye.width, eye.height,
+        for_each_leaf_pixel({at, at + e, at + f}, flat.texcoords, scene.masks[l], eye.width, eye.height,
                             [&](std::size_t p, float d) {
                               if (folded && std::exchange(last[p], l + 1) == l + 1) return;
-                              pixel_.push_back(std::uint32_t(p)), depth.push_back(d);
+                              pixel_.push_back(std::uint32_t(p)), depth_.push_back(d);
                             });
       }
     }
     first_of_leaf_.push_back(std::uint32_t(pixel_.size()));
-    sort(pixels, depth);
+    sort(pixels);
   }
 
   // fn(leaf) for the leaf in front, for the one at the back, and for what covers a pixel alone.
@@ -99,25 +142,75 @@ class Layers {
   }
 
  private:
-  void sort(std::size_t pixels, const std::vector<float>& depth) {
+  static Float3 along(const LeafEye& eye, const Float3& way) {
+    return {dot(way, eye.right), dot(way, eye.down), dot(way, eye.toward)};
+  }
+
+  // A triangle of few pixels as points, as many as it has pixels on the mean: what counts is how many leaves
+  // cover the ground, not where one ends.
+  void draw_points(const Float3& at, const Float3& e, const Float3& f, float area, const Scene::Flat& flat,
+                   const AlphaMask* mask, const LeafEye& eye) {
+    const std::uint32_t seed = flat.seed;
+    const auto& texcoords = flat.texcoords;
+    const int points = static_cast<int>(area + part(seed));
+    const std::size_t first = first_of_leaf_.back();
+    for (int i = 0; i < points; ++i) {
+      const auto n = static_cast<std::uint32_t>(i + 1);
+      float v = part(seed + n * k_first), w = part((seed ^ k_golden) + n * k_second);
+      if (v + w > 1) v = 1 - v, w = 1 - w;
+      const float x = at.x + v * e.x + w * f.x, y = at.y + v * e.y + w * f.y;
+      if (!(x >= 0 && y >= 0 && x < static_cast<float>(eye.width) && y < static_cast<float>(eye.height)))
+        continue;
+      if (mask != nullptr) {
+        const float u = 1 - v - w;
+        if (!mask->passes(u * texcoords[0].x + v * texcoords[1].x + w * texcoords[2].x,
+                          u * texcoords[0].y + v * texcoords[1].y + w * texcoords[2].y))
+          continue;
+      }
+      const auto pixel = static_cast<std::uint32_t>(static_cast<int>(y) * eye.width + static_cast<int>(x));
+      if (std::find(pixel_.begin() + std::ptrdiff_t(first), pixel_.end(), pixel) != pixel_.end()) continue;
+      pixel_.push_back(pixel), depth_.push_back(at.z + v * e.z + w * f.z);
+    }
+  }
+
+  void sort(std::size_t pixels) {
     std::vector<std::uint32_t> first(pixels + 1, 0);
     for (const std::uint32_t p : pixel_) ++first[p + 1];
     left_.assign(first.begin() + 1, first.end());
     for (std::size_t p = 0; p < pixels; ++p) first[p + 1] += first[p];
-    std::vector<std::pair<float, std::uint32_t>> at(pixel_.size());
+    std::vector<std::uint64_t> at(pixel_.size());
     front_.assign(first.begin(), first.end() - 1);
     for (std::uint32_t l = 0; l + 1 < first_of_leaf_.size(); ++l)
       for (std::uint32_t i = first_of_leaf_[l]; i < first_of_leaf_[l + 1]; ++i)
-        at[front_[pixel_[i]]++] = {-depth[i], l};  // depth grows toward the viewer
+        at[front_[pixel_[i]]++] = key(depth_[i], l);
     back_.resize(pixels), leaf_.resize(at.size());
     for (std::size_t p = 0; p < pixels; ++p) {
-      std::sort(at.begin() + first[p], at.begin() + first[p + 1]);
+      sort(std::span(at).subspan(first[p], first[p + 1] - first[p]));
       front_[p] = first[p], back_[p] = first[p + 1] - 1;  // of an empty pixel never looked at
     }
-    for (std::size_t i = 0; i < at.size(); ++i) leaf_[i] = at[i].second;
+    for (std::size_t i = 0; i < at.size(); ++i) leaf_[i] = static_cast<std::uint32_t>(at[i]);
+    depth_ = {};
+  }
+
+  // Depth grows toward the viewer: the nearest first, of equals the leaf of the least number.
+  static std::uint64_t key(float depth, std::uint32_t leaf) {
+    const auto bits = std::bit_cast<std::uint32_t>(depth);
+    return std::uint64_t{(bits >> 31) != 0 ? bits : 0x7fffffffu - bits} << 32 | leaf;
+  }
+
+  static void sort(std::span<std::uint64_t> keys) {
+    constexpr std::size_t k_short = 24;
+    if (keys.size() > k_short) return std::sort(keys.begin(), keys.end());
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+      const std::uint64_t moved = keys[i];
+      std::size_t to = i;
+      for (; to > 0 && moved < keys[to - 1]; --to) keys[to] = keys[to - 1];
+      keys[to] = moved;
+    }
   }
 
   std::vector<std::uint32_t> first_of_leaf_, pixel_;  // of every leaf its pixels
+  std::vector<float> depth_;                          // in them
   std::vector<std::uint32_t> leaf_;                   // of every pixel its leaves
   std::vector<std::uint32_t> front_, back_, left_;    // in leaf_, of those that are alive; how many
 };
@@ -161,8 +254,11 @@ class Greedy {
     deciding_ = eyes.size();
     for (const LeafEye& eye : round(k_control_turn, k_control_views)) eyes.push_back(eye);
     layers_.resize(eyes.size());
+    const Scene scene(leaves_, centre);
+    const auto samples = static_cast<std::size_t>(
+        1.2 * std::min(options_.samples * double(leaves_.size()), k_most_samples) / options_.views);
     tbb::parallel_for(std::size_t{0}, eyes.size(),
-                      [&](std::size_t v) { layers_[v].draw(leaves_, centre, eyes[v]); });
+                      [&](std::size_t v) { layers_[v].draw(scene, samples, options_.few, eyes[v]); });
   }
 
   void count() {

@@ -20,6 +20,7 @@ struct OcclusionOptions {
   double samples = 36;    // points of a leaf of mean size, of all views together
   double other = 0.04;    // what a pixel counts that shows another leaf, beside one that is lost
   double coverage = 1;    // ends before less than this share of the pixels is covered
+  float few = 0;          // pixels: a triangle of fewer is drawn as points; quicker, not as sure
   std::size_t least = 0;  // ends before fewer triangles are left
   // What is known of each leaf beside, pixels that its going costs; empty: nothing. Ties are broken by it.
   std::span<const float> prior = {};

@@ -196,7 +196,7 @@ class Chooser {
     for (std::size_t i = 0; i < cut_.size(); ++i) out = out || field_->at(shape.corners[i]).emptiness > 0;
     if (!out && size_ < 4 * field_->cell()) return;
     const auto corners = std::span(shape.corners).first(cut_.size());
-    const Double3 back = field_->way_back(corners, k_margin * field_->width());
+    const Double3 back = field_->hull().way_back(corners, k_margin * field_->hull().width());
     for (Double3& c : corners) c += back;
   }
 

@@ -1,6 +1,6 @@
 #include "lib/analysis/lod/leaf_surfaces.h"
 
-#include "lib/analysis/lod/crown_field.h"
+#include "lib/analysis/lod/crown_hull.h"
 #include "lib/analysis/lod/edge_collapse.h"
 #include "lib/analysis/lod/patch.h"
 #include "lib/analysis/lod/spectrum_builder.h"
@@ -59,6 +59,26 @@ std::vector<Face> places_of(const LeafPieces& pieces, std::vector<Double3>& plac
     out[corners[i].corner / 3][corners[i].corner % 3] = static_cast<std::uint32_t>(places.size() - 1);
   }
   return out;
+}
+
+// Whether leaves of so many triangles that they may hold lumps are half of the area; quick.
+bool may_be_lumps(const LeafPieces& pieces) {
+  double all = 0, large = 0;
+  for (std::size_t p = 0, next = 0; p < pieces.list.size(); p = next) {
+    double area = 0;
+    std::size_t triangles = 0;
+    for (next = p; next < pieces.list.size() && pieces.list[next].leaf == pieces.list[p].leaf; ++next) {
+      const LeafPiece& piece = pieces.list[next];
+      for (std::uint32_t i = piece.first; i < piece.last; ++i) {
+        const auto& t = pieces.part.triangles[pieces.triangles[i]];
+        const auto at = [&](int c) { return to_double(pieces.part.vertices[t[c]].position); };
+        const double one = area_of(at(0), at(1), at(2));
+        all += one, area += piece.card ? 0 : one, triangles += piece.card ? 0 : 1;
+      }
+    }
+    large += triangles >= k_lump_triangles ? area : 0;
+  }
+  return large > 0.499 * all;
 }
 
 struct Surface {
@@ -172,12 +192,12 @@ struct Quadric {
   }
 };
 
-CrownField field_of(const LeafPieces& pieces) {
-  std::vector<FoliageTriangle> triangles(pieces.part.triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (int c = 0; c < 3; ++c)
-      triangles[t].corners[c] = to_double(pieces.part.vertices[pieces.part.triangles[t][c]].position);
-  return {triangles, 8};
+CrownHull hull_of(const LeafPieces& pieces) {
+  std::vector<Double3> points;
+  for (const std::uint32_t t : pieces.triangles)
+    for (const std::uint32_t v : pieces.part.triangles[t])
+      points.push_back(to_double(pieces.part.vertices[v].position));
+  return CrownHull(points, k_margin);
 }
 
 // The lumps' triangles, one vertex a place: neither shading nor texture is in the way.
@@ -197,7 +217,7 @@ PartTriangles mesh_of(const LeafPieces& pieces, const Surfaces& surfaces) {
 class Replay {
  public:
   Replay(const LeafPieces& pieces, const Surfaces& surfaces)
-      : pieces_(pieces), surfaces_(surfaces), field_(field_of(pieces)), builder_(LodMethod::collapse) {
+      : pieces_(pieces), surfaces_(surfaces), hull_(hull_of(pieces)), builder_(LodMethod::collapse) {
     now_ = shape_ = surfaces.places;
     quadrics_.resize(now_.size());
     faces_ = surfaces.faces, element_.assign(faces_.size(), k_none), lump_of_.assign(faces_.size(), k_none);
@@ -401,8 +421,8 @@ class Replay {
   // Within the crown's hull.
   Double3 scaled(std::uint32_t p, const Double3& centre, double by) const {
     Double3 at = centre + (shape_[p] - centre) * by;
-    const double margin = k_margin * std::max(field_.width(), 0.0);
-    if (field_.excess(std::span(&at, 1)) > margin) at += field_.way_back(std::span(&at, 1), margin);
+    const std::span<const Double3> all(&at, 1);
+    if (!hull_.fits(all, k_margin)) at += hull_.way_back(all, k_margin * hull_.width());
     return at;
   }
 
@@ -448,7 +468,7 @@ class Replay {
 
   const LeafPieces& pieces_;
   const Surfaces& surfaces_;
-  CrownField field_;
+  CrownHull hull_;
   SpectrumBuilder builder_;
   std::vector<Double3> shape_, now_;  // of every place: before the lump is scaled, and then
   std::vector<Quadric> quadrics_;
@@ -462,6 +482,7 @@ class Replay {
 }  // namespace
 
 std::optional<SurfaceCollapse> collapse_surfaces(const LeafPieces& pieces) {
+  if (!may_be_lumps(pieces)) return {};
   const Surfaces surfaces(pieces);
   if (!(surfaces.share() > 0.5)) return {};
   const EdgeCollapses collapses =

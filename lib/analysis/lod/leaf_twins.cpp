@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -23,14 +25,38 @@ Places places_of(const PartTriangles& part, std::uint32_t triangle) {
   return places;
 }
 
+// Of any order of the places; of equal places equal.
+std::uint64_t hash_of(const PartTriangles& part, std::uint32_t triangle) {
+  std::uint64_t sum = 0;
+  for (const std::uint32_t v : part.triangles[triangle]) {
+    const Float3& p = part.vertices[v].position;
+    const auto bits = [](float x) {
+      return std::uint64_t{std::bit_cast<std::uint32_t>(x + 0.0f)};
+    };  // -0 is 0
+    std::uint64_t h = (bits(p.x) << 32 | bits(p.y)) * 0x9e3779b97f4a7c15u ^ bits(p.z);
+    h = (h ^ h >> 32) * 0xd6e8feb86659fd93u;
+    sum += h ^ h >> 32;
+  }
+  return sum;
+}
+
 std::vector<std::uint32_t> find_twins(const LeafPieces& pieces) {
-  std::vector<std::pair<Places, std::uint32_t>> all;
-  all.reserve(pieces.triangles.size());
-  for (const std::uint32_t t : pieces.triangles) all.emplace_back(places_of(pieces.part, t), t);
-  std::sort(all.begin(), all.end());
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> hashes;
+  hashes.reserve(pieces.triangles.size());
+  for (const std::uint32_t t : pieces.triangles) hashes.emplace_back(hash_of(pieces.part, t), t);
+  std::sort(hashes.begin(), hashes.end());
   std::vector<std::uint32_t> gone;
-  for (std::size_t i = 1; i < all.size(); ++i)
-    if (all[i].first == all[i - 1].first) gone.push_back(all[i].second);
+  std::vector<std::pair<Places, std::uint32_t>> alike;
+  for (std::size_t i = 0, next = 0; i < hashes.size(); i = next) {
+    for (next = i + 1; next < hashes.size() && hashes[next].first == hashes[i].first;) ++next;
+    if (next == i + 1) continue;
+    alike.clear();
+    for (std::size_t k = i; k < next; ++k)
+      alike.emplace_back(places_of(pieces.part, hashes[k].second), hashes[k].second);
+    std::sort(alike.begin(), alike.end());
+    for (std::size_t k = 1; k < alike.size(); ++k)
+      if (alike[k].first == alike[k - 1].first) gone.push_back(alike[k].second);
+  }
   std::sort(gone.begin(), gone.end());
   return gone;
 }
