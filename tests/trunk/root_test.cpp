@@ -139,6 +139,16 @@ TEST(Root, AFlaredTwigIsHeldByTheMiddleOfAThinnerRod) {
   EXPECT_TRUE(base->joint);
 }
 
+TEST(Root, ATwigIsHeldByTheTipOfAThinnerBough) {
+  for (const double share : {0.9, 0.7, 0.55}) {
+    TubeMaker maker;
+    maker.add(trunk_of({0, -0.1, 0}, {0, 6, 0}, 0.3, 0.1));
+    maker.add(trunk_of({0, 4, 0}, {4, 4.5, 0}, 0.08, 0.04 * share));
+    maker.add(trunk_of({4, 4.5, 0}, {5, 4.3, 0.2}, 0.04, 0.04));
+    EXPECT_EQ(roots(recover(maker)), 1) << share;
+  }
+}
+
 TEST(Root, ABranchThatFloatsALittleBeginsAtItsThickEndHoweverItHangs) {
   TubeMaker maker;
   maker.add(trunk_of({0, -0.1, 0}, {0, 6, 0}, 0.3, 0.1));

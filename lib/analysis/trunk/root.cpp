@@ -13,11 +13,16 @@ namespace copse {
 namespace {
 
 // How deep an end lies in another limb, in radii of that limb from its axis; infinite in the open. Where it
-// meets the end of another limb, both could begin there: that says nothing.
+// meets an end at which the other limb may begin, both could begin there: that says nothing.
 class Contact {
  public:
-  Contact(const Limbs& limbs, const LimbSegments& segments, std::span<const std::uint32_t> ends)
-      : limbs_(limbs), segments_(segments), is_end_(limbs.rings(), 0) {
+  // `possible`: of each ring whether it is an end at which its limb may begin (taper.h).
+  Contact(const Limbs& limbs, const LimbSegments& segments, std::span<const std::uint32_t> ends,
+          std::span<const std::uint8_t> possible)
+      : limbs_(limbs),
+        segments_(segments),
+        is_end_(limbs.rings(), 0),
+        is_possible_(possible.begin(), possible.end()) {
     for (const std::uint32_t e : ends) is_end_[e] = 1;
   }
 
@@ -26,7 +31,7 @@ class Contact {
     segments_.tree.near(limbs_.centre[end], k_contact_reach * radius, radius / 2, limbs_.limb[end],
                         k_candidates, found_);
     for (const Nearness& near : found_) {
-      if (!meets_end(near, end)) return near.distance / std::max(near.radius, radius / 2);
+      if (!meets_base(near, end)) return near.distance / std::max(near.radius, radius / 2);
     }
     return std::numeric_limits<double>::infinity();
   }
@@ -41,12 +46,12 @@ class Contact {
 
   // Whether something holds a limb by this end: what it lies in or against, or what it floats a little above.
   // It is not much thinner: a branch that begins at the top of a trunk does not hold the trunk. In its middle
-  // it may be thinner, as it does not begin there.
+  // or at its tip it may be thinner, as it does not begin there.
   bool holds(std::uint32_t end, double reach) {
     const double radius = limbs_.diameter[end] / 2;
     const auto is_holder = [&](const Nearness& near) {
       const std::uint32_t ring = limbs_.alive(segments_.rings[near.segment][0]);
-      const double thinner = meets_end(near, end) ? k_thicker_child : k_thinner_holder;
+      const double thinner = meets_base(near, end) ? k_thicker_child : k_thinner_holder;
       return !limbs_.plate(limbs_.limb[ring]) && near.radius * thinner >= radius;
     };
     segments_.tree.near(limbs_.centre[end], k_contact_reach * radius, radius / 2, limbs_.limb[end],
@@ -65,9 +70,15 @@ class Contact {
     return is_end_[ring] && distance(limbs_.centre[ring], limbs_.centre[end]) <= radius;
   }
 
+  // The same of an end at which that limb may begin.
+  bool meets_base(const Nearness& near, std::uint32_t end) const {
+    return is_possible_[limbs_.alive(segments_.rings[near.segment][near.t < 0.5 ? 0 : 1])] &&
+           meets_end(near, end);
+  }
+
   const Limbs& limbs_;
   const LimbSegments& segments_;
-  std::vector<std::uint8_t> is_end_;
+  std::vector<std::uint8_t> is_end_, is_possible_;
   std::vector<Nearness> found_;
 };
 
@@ -99,7 +110,7 @@ void Ground::find_floor(const Limbs& limbs, const LimbSegments& segments, double
     const double level = std::min(k_same_level * height, k_ground_level * limbs.diameter[e] / 2);
     if (limbs.centre[e].y - lowest <= level) standing.push_back(e);
   }
-  Contact contact(limbs, segments, ends);
+  Contact contact(limbs, segments, ends, possible_bases(limbs, ends));
   std::erase_if(standing, [&](std::uint32_t e) { return contact.lies_in_log(e); });
   const bool several = std::ranges::any_of(
       standing, [&](std::uint32_t e) { return limbs.limb[e] != limbs.limb[standing.front()]; });
@@ -118,7 +129,7 @@ class BaseChooser {
         ends_(end_rings(limbs)),
         possible_(possible_bases(limbs, ends_)),
         thickness_(end_thickness(limbs, ends_)),
-        contact_(limbs, segments, ends_) {}
+        contact_(limbs, segments, ends_, possible_) {}
 
   std::vector<std::uint32_t> run() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> of_limb;
