@@ -296,6 +296,38 @@ TEST_F(Treeprep, ReportsWhatItFoundAndHowWrongItIs) {
   EXPECT_NE(dependencies.find("none.mtl"), std::string::npos);
 }
 
+// Square tubes about axes along x or y.
+std::string square_tube(std::size_t& vertices, const Double3& from, const Double3& step, int rings,
+                        double radius) {
+  std::string obj;
+  const Double3 side = step.x != 0 ? Double3{0, 1, 0} : Double3{1, 0, 0}, up{0, 0, 1};
+  for (int r = 0; r < rings; ++r)
+    for (int i = 0; i < 4; ++i) {
+      const Double3 p =
+          from + step * r + (side * (i == 0 || i == 3 ? 1.0 : -1.0) + up * (i < 2 ? 1.0 : -1.0)) * radius;
+      obj += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+    }
+  for (int r = 0; r + 1 < rings; ++r)
+    for (int i = 0; i < 4; ++i) {
+      const std::size_t a = vertices + 1 + 4 * r + i, b = vertices + 1 + 4 * r + (i + 1) % 4;
+      obj += fmt::format("f {} {} {} {}\n", a, b, b + 4, a + 4);
+    }
+  vertices += 4 * static_cast<std::size_t>(rings);
+  return obj;
+}
+
+TEST_F(Treeprep, SaysWhereLimbsBeginInTheAir) {
+  std::size_t vertices = 0;
+  std::string obj = "usemtl bark\n" + square_tube(vertices, {0, 0, 0}, {0, 0.5, 0}, 12, 0.2) +
+                    square_tube(vertices, {0, 3, 0}, {0.5, 0, 0}, 8, 0.1);
+  EXPECT_EQ(prepare(input(obj)).err.find("in the air"), std::string::npos);
+  const std::string bough = square_tube(vertices, {1, 3.06, 0}, {0, 0.3, 0}, 3, 0.02);
+  EXPECT_EQ(prepare(input(obj + bough)).err.find("in the air"), std::string::npos);
+  const Outcome o = prepare(input(obj + bough + square_tube(vertices, {2, 4.5, 0}, {0, 0.3, 0}, 3, 0.02)));
+  EXPECT_EQ(o.status, 0);
+  EXPECT_NE(o.err.find("1 of the limbs begins in the air"), std::string::npos) << o.err;
+}
+
 TEST_F(Treeprep, ReadsAPipeOnceAndClaimsNoHashOfIt) {
   input(little_tree_obj());
   const Outcome o =

@@ -3,6 +3,7 @@
 #include "lib/analysis/measure/cylinder_error.h"
 #include "lib/analysis/tree/lone_segment.h"
 #include "lib/analysis/trunk/recover.h"
+#include "lib/analysis/trunk/stray_roots.h"
 #include "tools/treeprep/strict_stage.h"
 #include "tools/treeprep/texture_stage.h"
 
@@ -56,6 +57,18 @@ void warn_of_unexplained(const Input& input, const TrunkMesh& trunk, const Hiera
       input.name, 100 * unexplained));
 }
 
+// A tree that fell apart explains its triangles as well as one that did not.
+void warn_of_stray_roots(const Input& input, const Hierarchy& hierarchy, Context& context) {
+  const std::vector<std::uint32_t> stray = stray_roots(hierarchy);
+  if (stray.empty()) return;
+  const Double3& at = hierarchy.radii[stray.front()].centre;
+  context.warn(fmt::format(
+      "{}: {} of the limbs begin{} in the air, held by nothing that was found, and {} of {} own; the "
+      "first at {:.6g},{:.6g},{:.6g}",
+      input.name, stray.size(), stray.size() == 1 ? "s" : "", stray.size() == 1 ? "is a tree" : "are trees",
+      stray.size() == 1 ? "its" : "their", at.x, at.y, at.z));
+}
+
 Hierarchy skeleton_stage(const Input& input, const TrunkMesh& trunk, const Options& options,
                          Context& context) {
   Stage stage = context.stage("skeleton");
@@ -63,6 +76,7 @@ Hierarchy skeleton_stage(const Input& input, const TrunkMesh& trunk, const Optio
   Hierarchy hierarchy = recover_hierarchy(trunk, {.skeleton = options.skeleton, .roots = options.roots});
   add_lone_segment(trunk, hierarchy);
   warn_of_unexplained(input, trunk, hierarchy, context);
+  warn_of_stray_roots(input, hierarchy, context);
   return hierarchy;
 }
 

@@ -24,8 +24,8 @@ struct LimbSegments {
 };
 
 // Merges every end ring with the end rings of other limbs that have the same centre and diameter
-// (tolerances.h), and with the limbs the limb numbers in `limbs` and in the segments. Not those that would turn
-// back in it, nor those that lie about the axis of a third, thicker limb: twigs that begin in one place.
+// (tolerances.h), and with the limbs the limb numbers in `limbs` and in the segments. Not those that would
+// turn back in it, nor those that lie about the axis of a third, thicker limb: twigs that begin in one place.
 // Limbs that are already one are not joined a second time, so that there is no loop. O(n log n).
 void join(Limbs& limbs, LimbSegments& segments);
 
