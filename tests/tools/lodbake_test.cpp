@@ -16,7 +16,7 @@ namespace {
 using Lodbake = BakedOak;
 
 TEST_F(Lodbake, EveryLevelCanBeTakenFromTheFile) {
-  const Outcome o = bake({"--discrete", "0.66,0.33,0.15", "--continuous"});
+  const Outcome o = bake({"--discrete", "0.66,0.25,0.1", "--continuous"});
   ASSERT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(o.err, "");
   const std::size_t full = triangles({});
