@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 
 namespace copse {
 
@@ -118,23 +117,68 @@ Level halve(const Level& source) {
   return target;
 }
 
-double coverage(const Level& level, float cutoff) {
-  const auto passing =
-      std::count_if(level.texels.begin(), level.texels.end(), [&](const Texel& t) { return t.a >= cutoff; });
-  return level.texels.empty() ? 1 : static_cast<double>(passing) / static_cast<double>(level.texels.size());
+// What a filter that repeats the texture reads between texels, some k_least_samples places or more of a
+// level, evenly: of a texel the four quarters' middles in turn where there are many, all of a finer grid
+// else.
+class AlphaSamples {
+ public:
+  AlphaSamples(int width, int height) : width_(width), height_(height) {
+    const double texels = static_cast<double>(width) * height;
+    grid_ = texels >= k_least_samples ? 1 : static_cast<int>(std::ceil(std::sqrt(k_least_samples / texels)));
+  }
+
+  // The share of the surface that passes the test when alpha(texel) is each texel's.
+  template <class Alpha>
+  double share(const Alpha& alpha, float cutoff) const {
+    std::size_t passing = 0;
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) passing += passing_in(x, y, alpha, cutoff);
+    return static_cast<double>(passing) / (static_cast<double>(width_) * height_ * grid_ * grid_);
+  }
+
+ private:
+  static constexpr double k_least_samples = 4096;
+
+  template <class Alpha>
+  std::size_t passing_in(int x, int y, const Alpha& alpha, float cutoff) const {
+    std::size_t passing = 0;
+    for (int j = 0; j < grid_; ++j)
+      for (int i = 0; i < grid_; ++i) {
+        const float u = grid_ == 1 ? (x % 2 ? 0.25f : -0.25f) : (float(i) + 0.5f) / float(grid_) - 0.5f;
+        const float v = grid_ == 1 ? (y % 2 ? 0.25f : -0.25f) : (float(j) + 0.5f) / float(grid_) - 0.5f;
+        const int across = (x + (u < 0 ? width_ - 1 : 1)) % width_;
+        const int down = (y + (v < 0 ? height_ - 1 : 1)) % height_;
+        const float wu = std::abs(u), wv = std::abs(v);
+        const float here = alpha(at(x, y)) * (1 - wu) + alpha(at(across, y)) * wu;
+        const float there = alpha(at(x, down)) * (1 - wu) + alpha(at(across, down)) * wu;
+        passing += here * (1 - wv) + there * wv >= cutoff;
+      }
+    return passing;
+  }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  int width_, height_, grid_ = 1;
+};
+
+double scaled_share(const Level& level, float cutoff, float scale) {
+  return AlphaSamples(level.width, level.height)
+      .share([&](std::size_t i) { return std::min(1.0f, scale * level.texels[i].a); }, cutoff);
 }
 
-// What alpha is to be multiplied by so that `share` of the level passes the test.
+// What alpha is to be multiplied by so that `share` of the level passes the test, as nearly as can be.
 float alpha_scale(const Level& level, float cutoff, double share) {
-  const double n = static_cast<double>(level.texels.size());
-  const auto passing = static_cast<std::size_t>(std::lround(share * n));
-  if (passing == 0) return 1;
-  std::vector<float> alpha;
-  alpha.reserve(level.texels.size());
-  for (const Texel& t : level.texels) alpha.push_back(t.a);
-  const auto last = alpha.begin() + static_cast<std::ptrdiff_t>(passing - 1);
-  std::nth_element(alpha.begin(), last, alpha.end(), std::greater<>());
-  return *last > 0 ? cutoff / *last : 1;
+  constexpr float k_most = 255;  // what is less than a byte's step is nothing
+  constexpr int k_halvings = 14;
+  float low = 0, high = 1;
+  while (high < k_most && scaled_share(level, cutoff, high) < share) low = high, high *= 2;
+  for (int i = 0; i < k_halvings; ++i) {
+    const float middle = 0.5f * (low + high);
+    (scaled_share(level, cutoff, middle) < share ? low : high) = middle;
+  }
+  const auto off = [&](float scale) { return std::abs(scaled_share(level, cutoff, scale) - share); };
+  return off(low) < off(high) ? low : high;
 }
 
 std::uint8_t alpha_byte(float a) {
@@ -180,7 +224,7 @@ std::vector<MipLevel> mip_chain(std::span<const std::uint8_t> rgba, int width, i
                                 float alpha_cutoff) {
   std::vector<Level> levels{decode(rgba, width, height)};
   while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(halve(levels.back()));
-  const double share = coverage(levels.front(), alpha_cutoff);
+  const double share = scaled_share(levels.front(), alpha_cutoff, 1);
   std::vector<MipLevel> chain(levels.size());
   for (std::size_t i = levels.size(); i-- > 0;) {
     const bool tested = alpha_cutoff > 0 && i > 0;
@@ -188,16 +232,20 @@ std::vector<MipLevel> mip_chain(std::span<const std::uint8_t> rgba, int width, i
     chain[i] = encode(levels[i], i + 1 < levels.size() ? &chain[i + 1] : nullptr, tested ? alpha_cutoff : 0,
                       scale, i == 0 ? rgba : std::span<const std::uint8_t>());
   }
+  if (alpha_cutoff <= 0) return chain;
+  // What a few texels cannot hold is better read from the level before, which shimmers but is right on
+  // average.
+  const auto fails = [&](const MipLevel& level) {
+    return std::abs(alpha_coverage(level, alpha_cutoff) - share) > k_coverage_tolerance * share;
+  };
+  chain.erase(std::find_if(chain.begin() + 1, chain.end(), fails), chain.end());
   return chain;
 }
 
 double alpha_coverage(const MipLevel& level, float alpha_cutoff) {
   if (alpha_cutoff <= 0 || level.rgba.empty()) return 1;
-  std::size_t passing = 0;
-  for (std::size_t i = 3; i < level.rgba.size(); i += 4) {
-    passing += static_cast<float>(level.rgba[i]) / 255 >= alpha_cutoff;
-  }
-  return 4.0 * static_cast<double>(passing) / static_cast<double>(level.rgba.size());
+  return AlphaSamples(level.width, level.height)
+      .share([&](std::size_t i) { return static_cast<float>(level.rgba[4 * i + 3]) / 255; }, alpha_cutoff);
 }
 
 }  // namespace copse

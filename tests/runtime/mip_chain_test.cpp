@@ -1,5 +1,7 @@
 #include "lib/runtime/mip_chain.h"
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -41,18 +43,41 @@ TEST(MipChain, LevelZeroKeepsEveryVisibleByte) {
   EXPECT_EQ(mip_chain(rgba, 16, 16, 0.5f)[0].rgba, rgba);
 }
 
-TEST(MipChain, EveryLevelLetsTheSameShareThrough) {
-  // Three texels in ten pass; the mean alpha is 0.36, so plain averages would let nothing through.
-  const int n = 128;
+// Random alpha below 183: three texels in ten pass; the mean is 0.36, so plain averages would let nothing
+// through.
+Bytes noise(int n) {
   Bytes rgba(static_cast<std::size_t>(n * n) * 4, 100);
   std::mt19937 random(3);
   for (std::size_t i = 0; i < rgba.size(); i += 4) rgba[i + 3] = static_cast<std::uint8_t>(random() % 183);
-  const auto chain = mip_chain(rgba, n, n, 0.5f);
-  const double expected = alpha_coverage(chain[0], 0.5f);
-  EXPECT_NEAR(expected, 0.3, 0.02);
-  for (std::size_t level = 1; level + 3 < chain.size(); ++level) {
-    EXPECT_NEAR(alpha_coverage(chain[level], 0.5f), expected, 0.03) << "level " << level;
+  return rgba;
+}
+
+// An opaque leaf of an odd shape amid nothing, with so much of the image's area or somewhat less.
+Bytes leaf(int n, double area) {
+  Bytes rgba(static_cast<std::size_t>(n * n) * 4, 100);
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const double u = 2 * (x + 0.5) / n - 1, v = 2 * (y + 0.5) / n - 1;
+      const double r = std::sqrt(area * 4 / std::numbers::pi) * (1 + 0.3 * std::sin(7 * std::atan2(v, u)));
+      rgba[4 * (static_cast<std::size_t>(y) * n + x) + 3] = u * u + v * v <= r * r ? 255 : 0;
+    }
+  return rgba;
+}
+
+TEST(MipChain, EveryLevelLetsTheSameShareThrough) {
+  for (const Bytes& rgba : {noise(128), leaf(128, 0.11), leaf(128, 0.5), leaf(128, 0.02)}) {
+    const auto chain = mip_chain(rgba, 128, 128, 0.5f);
+    const double expected = alpha_coverage(chain[0], 0.5f);
+    EXPECT_GT(chain.size(), 3u) << expected;
+    for (const MipLevel& level : chain)
+      EXPECT_NEAR(alpha_coverage(level, 0.5f), expected, k_coverage_tolerance * expected) << level.width;
   }
+}
+
+TEST(MipChain, EndsWhereAFewTexelsCannotHoldTheShare) {
+  EXPECT_GT(mip_chain(leaf(128, 0.11), 128, 128, 0.5f).back().width, 1) << "one texel passes or does not";
+  EXPECT_EQ(mip_chain(leaf(128, 0.11), 128, 128, 0).back().width, 1) << "nothing is tested";
+  EXPECT_EQ(mip_chain(Bytes(64 * 64 * 4, 255), 64, 64, 0.5f).back().width, 1) << "all of it passes";
 }
 
 TEST(MipChain, AWhollyTransparentTextureStaysSo) {
