@@ -83,5 +83,22 @@ TEST(Lids, OfAnythingAreDiscs) {
   }
 }
 
+TEST(Lids, TheSideOfALimbIsNoPartOfTheLidThatItIsFlushWith) {
+  TrunkMesh mesh;  // a square, sides that go down from three of its edges, and one in its plane at the fourth
+  mesh.positions = {{0, 0, 0}, {1, 0, 0},    {1, 0, 1},    {0, 0, 1},   {2, 0, 0},
+                    {2, 0, 1}, {0.5, -1, 0}, {0.5, -1, 1}, {0, -1, 0.5}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}, {1, 0, 6}, {3, 2, 7}, {0, 3, 8}};
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) mesh.source.push_back(t), mesh.piece.push_back(0);
+  const Surface s = surface_of(mesh);
+  const auto has_square = [&](std::span<const std::uint8_t> settled) {
+    return std::ranges::any_of(find_lids(s.positions, s.triangles, edges_of(s), 0.9, settled),
+                               [](const Lid& l) {
+                                 return l.triangles == std::vector<std::uint32_t>{0, 1} && l.rim.size() == 4;
+                               });
+  };
+  EXPECT_FALSE(has_square({}));
+  EXPECT_TRUE(has_square(std::vector<std::uint8_t>{0, 0, 1, 1, 0, 0, 0}));
+}
+
 }  // namespace
 }  // namespace copse

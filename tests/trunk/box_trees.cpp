@@ -96,7 +96,7 @@ class Modeller {
       Ids ring;
       for (std::uint32_t i = 0; i < shape_.sides; ++i) {
         const double a = 2 * std::numbers::pi * i / shape_.sides;
-        ring.push_back(add({radius * std::cos(a) + 0.1 * std::sin(up), 1.3 * up + draw(-0.02, 0.02),
+        ring.push_back(add({radius * std::cos(a) + 0.1 * std::sin(up), 1.3 * up + radius * draw(-0.02, 0.02),
                             -radius * std::sin(a) + 0.1 * std::cos(2 * up)}));
       }
       const std::uint32_t number =

@@ -258,6 +258,7 @@ void BandGrowth::start_at_points(Points which) {
   for (std::uint32_t v = 0; v < first.size(); ++v) {
     if (unread(first[v]) && collect_fan(v, first[v], fan) && is_point(v, fan, which)) read_fan(v, fan);
   }
+  committed_at_ = walks_;
 }
 
 void BandGrowth::start_at_lids(double smooth, int rings, Lids which) {
@@ -270,6 +271,7 @@ void BandGrowth::start_at_lids(double smooth, int rings, Lids which) {
     close_with_lid(lid);
     push_rim(lid);
   }
+  committed_at_ = walks_;  // what was tried has walked where fronts may still begin
 }
 
 bool BandGrowth::is_unread(const Lid& lid) const {
@@ -303,11 +305,15 @@ void BandGrowth::push_rim(const Lid& lid) {
 
 void BandGrowth::start_at_lids_beside_limbs(double smooth) {
   for (const std::size_t most : {std::size_t{1}, k_widest_collar}) {
-    for (const Lid& lid : ends_.lids(smooth)) {
+    // Stand-ins are no part of a surface: its own triangles come first.
+    const std::span<const std::uint8_t> settled(claimed_.data(), surface_.triangles.size());
+    for (const Lid& lid : ends_.lids_beside(smooth, settled)) {
       if (lid.rim.size() > k_widest_collar || !ends_.may_close(lid, Lids::any) || !is_unread(lid)) continue;
       const std::uint32_t number = close_with_lid(lid);
+      const std::uint32_t first = bands_.count();
       if (read_past_limbs(2 * number, most)) {
         read_regular();
+        read_past_limbs_from(first);  // before another lid is believed: a box can be read along three axes
       } else {
         open_again();
       }
@@ -557,6 +563,14 @@ void BandGrowth::read_past_limbs_at_borders() {
   }
 }
 
+// Whether the walked front is a ring of a band or lid: all of what lies behind it is that.
+bool BandGrowth::runs_along(std::uint32_t band) const {
+  return std::ranges::all_of(step_.near, [&](const Edge& e) {
+    const std::uint32_t behind = beyond(e.triangle, e.a, e.b);
+    return behind != k_none && band_of_[behind] == band;
+  });
+}
+
 bool BandGrowth::read_past_limbs(std::uint32_t ring, std::size_t most) {
   const std::vector<Side> round = sides_of(ring);
   if (read_past_limb_at_border(ring, round)) return true;
@@ -572,7 +586,7 @@ bool BandGrowth::read_past_limbs(std::uint32_t ring, std::size_t most) {
   if (good) {
     const Side s = sides_of(ring)[0];
     good = unread(s.outside) && walk({s.outside, s.a, s.b, limit_after(round.size())}) && is_strip() &&
-           step_.ring.size() == round.size() && step_.next.size() == step_.ring.size();
+           runs_along(ring / 2) && step_.ring.size() == round.size() && step_.next.size() == round.size();
   }
   if (good) {
     commit();
@@ -592,14 +606,19 @@ bool BandGrowth::borders_unread(std::uint32_t band) const {
 }
 
 void BandGrowth::read_past_limbs() {
-  // One limb first: a limb of four sides can pass for what two other ends sit on.
-  read_past_limbs_of(1);
-  read_past_limbs_of(k_widest_collar);
+  read_past_limbs_from(0);
   read_past_limbs_at_borders();
   read_regular();
 }
 
-void BandGrowth::read_past_limbs_of(std::size_t most) {
+// Beyond the bands from `first` on, and those that they have reached.
+void BandGrowth::read_past_limbs_from(std::uint32_t first) {
+  // One limb first: a limb of four sides can pass for what two other ends sit on.
+  read_past_limbs_of(1, first);
+  read_past_limbs_of(k_widest_collar, first);
+}
+
+void BandGrowth::read_past_limbs_of(std::size_t most, std::uint32_t first) {
   std::vector<std::uint32_t> todo;
   std::vector<std::uint8_t> listed;
   const auto list = [&](std::uint32_t band) {
@@ -610,7 +629,7 @@ void BandGrowth::read_past_limbs_of(std::size_t most) {
       todo.push_back(ring);
     }
   };
-  std::uint32_t known = 0;
+  std::uint32_t known = first;
   // New bands, and those that they have reached.
   const auto list_new = [&] {
     listed.resize(2 * std::size_t{bands_.count()}, 0);

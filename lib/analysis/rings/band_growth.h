@@ -134,8 +134,10 @@ class BandGrowth {
   bool read_from_border(const Side& border, std::uint32_t first_stand_in, std::size_t k);
   bool read_past_limb_at_border(std::uint32_t ring, std::span<const Side> sides);
   void read_past_limbs_at_borders();
+  bool runs_along(std::uint32_t band) const;
   bool read_past_limbs(std::uint32_t ring, std::size_t most);
-  void read_past_limbs_of(std::size_t most);
+  void read_past_limbs_from(std::uint32_t first);
+  void read_past_limbs_of(std::size_t most, std::uint32_t first);
 
   const Surface& surface_;
   Bands& bands_;

@@ -30,6 +30,19 @@ enum class Ends : std::uint8_t {
 // Where a welded tube is sheared by more, its end is no lid here.
 constexpr auto k_lid_angles = std::to_array({k_lid_smooth_cosines[0], k_lid_smooth_cosines[1]});
 
+// A lid comes to light when the limb beside it is read, and a limb when the lid at its end is.
+void start_at_lids_beside_limbs(const Surface& surface, BandGrowth& growth, const Bands& bands) {
+  std::size_t before = bands.count();
+  do {
+    before = bands.count();
+    for (const double smooth : k_lid_angles) {
+      if (is_complete(surface, bands)) return;
+      growth.start_at_lids_beside_limbs(smooth);
+      growth.read_past_limbs();
+    }
+  } while (bands.count() > before);
+}
+
 // From the ends inward, by counting alone.
 void grow_from_ends(const Surface& surface, Ends ends, Bands& bands) {
   using Points = BandGrowth::Points;
@@ -59,10 +72,7 @@ void grow_from_ends(const Surface& surface, Ends ends, Bands& bands) {
     start_at_lids(k_lid_angles, 1, Lids::any);
     start_at_points(Points::followed_by_a_ring);
     growth.read_past_limbs();
-    for (const double smooth : k_lid_angles) {
-      growth.start_at_lids_beside_limbs(smooth);
-      growth.read_past_limbs();
-    }
+    start_at_lids_beside_limbs(surface, growth, bands);
     growth.close_rings();
   }
   // The corners of lids are as sharp as points.

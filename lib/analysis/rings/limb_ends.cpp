@@ -10,10 +10,7 @@
 
 namespace copse {
 
-const std::vector<Lid>& LimbEnds::lids(double smooth) {
-  for (const auto& [angle, lids] : lids_) {
-    if (angle == smooth) return lids;
-  }
+std::vector<SharedEdge> LimbEnds::edges() const {
   std::vector<SharedEdge> edges;
   for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
     for (std::size_t e = 0; e < 3; ++e) {
@@ -22,7 +19,21 @@ const std::vector<Lid>& LimbEnds::lids(double smooth) {
         edges.push_back({surface_.triangles[t][e], surface_.triangles[t][(e + 1) % 3], t, n});
     }
   }
-  return lids_.emplace_back(smooth, find_lids(surface_.positions, surface_.triangles, edges, smooth)).second;
+  return edges;
+}
+
+const std::vector<Lid>& LimbEnds::lids(double smooth) {
+  for (const auto& [angle, lids] : lids_) {
+    if (angle == smooth) return lids;
+  }
+  return lids_.emplace_back(smooth, find_lids(surface_.positions, surface_.triangles, edges(), smooth))
+      .second;
+}
+
+std::vector<Lid> LimbEnds::lids_beside(double smooth, std::span<const std::uint8_t> settled) const {
+  std::vector<Lid> lids = find_lids(surface_.positions, surface_.triangles, edges(), smooth, settled);
+  std::erase_if(lids, [&](const Lid& lid) { return settled[lid.triangles[0]] != 0; });
+  return lids;
 }
 
 bool LimbEnds::is_round(std::span<const std::uint32_t> ring) const {

@@ -20,6 +20,10 @@ class LimbEnds {
   // angle is asked for.
   const std::vector<Lid>& lids(double smooth);
 
+  // The same where some triangles (one entry each, not 0) are known to be no part of a lid: the side of a
+  // limb may be flush with the lid beside it.
+  std::vector<Lid> lids_beside(double smooth, std::span<const std::uint8_t> settled) const;
+
   // Whether vertices may lie round a limb: their polygon is about as round as one of so many corners can be.
   // What surrounds a corner, and a strip along a limb's side, is long; so is the end of a slab.
   bool is_round(std::span<const std::uint32_t> ring) const;
@@ -34,6 +38,8 @@ class LimbEnds {
   bool is_lid_corner(std::uint32_t vertex);
 
  private:
+  std::vector<SharedEdge> edges() const;
+
   const Surface& surface_;
   std::vector<std::pair<double, std::vector<Lid>>> lids_;  // by angle
   std::vector<std::uint8_t> lid_corner_;                   // one a vertex, or none yet

@@ -47,12 +47,14 @@ std::uint32_t middle_of(const Lid& lid, std::span<const Triangle> triangles) {
 }  // namespace
 
 std::vector<Lid> find_lids(std::span<const Double3> positions, std::span<const Triangle> triangles,
-                           std::span<const SharedEdge> edges, double smooth) {
+                           std::span<const SharedEdge> edges, double smooth,
+                           std::span<const std::uint8_t> settled) {
   std::vector<Double3> normals;
   normals.reserve(triangles.size());
   for (const Triangle& t : triangles) normals.push_back(unit_normal(positions, t));
   UnionFind patches(triangles.size());
   for (const SharedEdge& e : edges) {
+    if (!settled.empty() && (settled[e.t] != 0 || settled[e.u] != 0)) continue;
     if (std::abs(dot(normals[e.t], normals[e.u])) > smooth) patches.unite(e.t, e.u);
   }
   std::vector<std::uint32_t> patch_of(triangles.size()), size(triangles.size(), 0), rim(triangles.size(), 0);
