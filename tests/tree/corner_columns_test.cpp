@@ -18,7 +18,7 @@ Mesh two_triangles() {
 
 TEST(CornerColumns, KeepWhatIsUsedOnceInTheOrderOfFirstUse) {
   const Mesh mesh = two_triangles();
-  CornerColumns columns(mesh);
+  CornerColumns columns(mesh, mesh.triangles.size());
   EXPECT_EQ(columns.corners(0).normal, (std::array<std::uint32_t, 3>{0, 0, k_none}));
   EXPECT_EQ(columns.corners(1).normal, (std::array<std::uint32_t, 3>{1, 0, 0}));
   EXPECT_EQ(columns.normals, (std::vector<Float3>{{0, 0, 1}, {1, 0, 0}}));
@@ -29,7 +29,7 @@ TEST(CornerColumns, OfAMeshWithoutThemAreEmpty) {
   Mesh mesh = two_triangles();
   mesh.normal_triangles.clear();
   mesh.texcoord_triangles.clear();
-  CornerColumns columns(mesh);
+  CornerColumns columns(mesh, mesh.triangles.size());
   const CornerTriangle t = columns.corners(1);
   EXPECT_EQ(t.normal, (std::array<std::uint32_t, 3>{k_none, k_none, k_none}));
   EXPECT_EQ(t.texcoord, (std::array<std::uint32_t, 3>{k_none, k_none, k_none}));

@@ -100,6 +100,7 @@ Result<Analysis> analyse(Input& input, const Options& options, TreeKind kind, co
   if (!options.strict) {
     a.trunk = weld_stage(input, a.classes, options, context);
     a.hierarchy = skeleton_stage(input, a.trunk, options, context);
+    a.trunk.piece = {}, a.trunk.file_order = {};  // only rings are read by them
   }
   const Double3 origin = choose_origin(bounds(input.mesh));
   a.leaves = leaf_stage(input, a.classes, a.hierarchy, origin, options, left_out, context);

@@ -14,18 +14,20 @@ namespace copse {
 
 class PatchedSurface {
  public:
-  explicit PatchedSurface(const Surface& surface)
-      : triangles_(surface.triangles), across_(surface.across), own_(surface.triangles.size()) {}
+  // The surface must live as long.
+  explicit PatchedSurface(const Surface& surface) : own_(surface.triangles), across_(surface.across) {}
 
   // The surface's own triangles have the numbers that they have there; stand-ins follow them.
-  const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
-  std::size_t size() const { return triangles_.size(); }
-  bool is_stand_in(std::uint32_t t) const { return t >= own_; }
+  const Triangle& triangle(std::uint32_t t) const {
+    return is_stand_in(t) ? stand_ins_[t - own_.size()] : own_[t];
+  }
+  std::size_t size() const { return across_.size(); }
+  bool is_stand_in(std::uint32_t t) const { return t >= own_.size(); }
 
   // What lies across an edge of a triangle now: k_none at a border, and behind what a stand-in has covered.
   std::uint32_t across(std::uint32_t t, std::size_t edge) const { return across_[t][edge]; }
   std::uint32_t beyond(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
-    return across_[t][static_cast<std::size_t>(edge_between(triangles_[t], a, b))];
+    return across_[t][static_cast<std::size_t>(edge_between(triangle(t), a, b))];
   }
 
   // An edge a -> b of a hole: the triangle of whatever sits in it, and what lies across; k_none at a border.
@@ -40,11 +42,12 @@ class PatchedSurface {
 
  private:
   void set_beyond(std::uint32_t t, std::uint32_t a, std::uint32_t b, std::uint32_t to) {
-    across_[t][static_cast<std::size_t>(edge_between(triangles_[t], a, b))] = to;
+    across_[t][static_cast<std::size_t>(edge_between(triangle(t), a, b))] = to;
   }
 
-  std::vector<Triangle> triangles_, across_;
-  std::size_t own_;
+  std::span<const Triangle> own_;
+  std::vector<Triangle> stand_ins_;
+  std::vector<Triangle> across_;  // of all
 };
 
 }  // namespace copse

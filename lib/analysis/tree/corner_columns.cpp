@@ -22,9 +22,16 @@ std::array<std::uint32_t, 3> store(const Triangle& used, const std::vector<T>& a
 
 }  // namespace
 
-CornerColumns::CornerColumns(const Mesh& mesh) : mesh_(mesh) {
-  if (!mesh.normal_triangles.empty()) stored_normal_.assign(mesh.normals.size(), k_none);
-  if (!mesh.texcoord_triangles.empty()) stored_texcoord_.assign(mesh.texcoords.size(), k_none);
+CornerColumns::CornerColumns(const Mesh& mesh, std::size_t triangles) : mesh_(mesh) {
+  // Columns that grew would be copied, and take up twice the memory meanwhile.
+  if (!mesh.normal_triangles.empty()) {
+    stored_normal_.assign(mesh.normals.size(), k_none);
+    normals.reserve(std::min(mesh.normals.size(), 3 * triangles));
+  }
+  if (!mesh.texcoord_triangles.empty()) {
+    stored_texcoord_.assign(mesh.texcoords.size(), k_none);
+    texcoords.reserve(std::min(mesh.texcoords.size(), 3 * triangles));
+  }
 }
 
 CornerTriangle CornerColumns::corners(std::uint32_t mesh_triangle) {

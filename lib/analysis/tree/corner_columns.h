@@ -6,6 +6,7 @@
 #include "lib/formats/mesh.h"
 #include "lib/formats/tree/tree.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace copse {
 
 class CornerColumns {
  public:
-  explicit CornerColumns(const Mesh& mesh);
+  // Of at most so many triangles.
+  CornerColumns(const Mesh& mesh, std::size_t triangles);
 
   // The normal and texture indices of a mesh triangle's corners, into the columns below; vertices stay 0.
   CornerTriangle corners(std::uint32_t mesh_triangle);

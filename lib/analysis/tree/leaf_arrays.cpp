@@ -33,9 +33,10 @@ LeafArrays make_leaf_arrays(const Mesh& mesh, const LeafGeometry& geometry, cons
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = to_float(geometry.centres[i] - origin);
   out.leaves.centres = std::move(points);
 
-  CornerColumns columns(mesh);
+  CornerColumns columns(mesh, geometry.triangles.size());
   Indices stored(mesh.positions.size(), k_none);
   std::vector<Float3> vertices;
+  vertices.reserve(std::min(mesh.positions.size(), 3 * geometry.triangles.size()));
   std::vector<CornerTriangle> triangles(geometry.triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     triangles[i] = columns.corners(geometry.triangles[i]);

@@ -314,7 +314,7 @@ void store_lines(const Segments& segments, const Hierarchy& hierarchy, const Ord
 
 void store_triangles(const Mesh& mesh, const TrunkMesh& source, const Segments& segments,
                      const VertexOrder& vertices, Trunk& trunk) {
-  CornerColumns columns(mesh);
+  CornerColumns columns(mesh, segments.triangles.size());
   std::vector<CornerTriangle> triangles(segments.triangles.size());
   Indices materials(segments.triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -336,11 +336,12 @@ TrunkArrays make_trunk_arrays(const Mesh& mesh, const TrunkMesh& trunk, const Hi
                               const std::vector<std::uint32_t>& group_of_radius) {
   TrunkArrays out;
   const Order order = breadth_first(hierarchy.radii);
-  const Indices owner = owners(trunk, hierarchy);
-  const Indices segment_of = choose_segments(trunk, hierarchy, owner, out.unexplained);
-  Segments segments = sort_segments(hierarchy, order, segment_of);
+  Indices owner = owners(trunk, hierarchy);
+  Segments segments =
+      sort_segments(hierarchy, order, choose_segments(trunk, hierarchy, owner, out.unexplained));
   StoredRadii radii = store_radii(hierarchy, order, origin, group_of_radius);
   const VertexOrder vertices = order_vertices(trunk, hierarchy, order, owner);
+  owner = {};
   std::vector<Float3> vectors = store_vectors(trunk, vertices, origin, radii);
 
   out.segment_factor = constant_step(segments.first_triangle);
@@ -350,11 +351,12 @@ TrunkArrays make_trunk_arrays(const Mesh& mesh, const TrunkMesh& trunk, const Hi
     out.trunk.first_triangle = std::move(segments.first_triangle);
 
   // What a reader will rebuild, in its own arithmetic: the bounds contain those very floats.
-  std::vector<Float3> positions(vectors.size());
+  std::vector<Float3> positions(kind == TreeKind::still ? vectors.size() : 0);
   for (std::size_t r = 0; r < radii.radii.size(); ++r) {
     for (std::uint32_t v = vertices.first[r]; v < vertices.first[r + 1]; ++v) {
-      positions[v] = to_float(radii.centres[r] + to_double(vectors[v]));
-      out.bounds.grow(positions[v]);
+      const Float3 position = to_float(radii.centres[r] + to_double(vectors[v]));
+      if (!positions.empty()) positions[v] = position;
+      out.bounds.grow(position);
     }
   }
   const AreaDensity density = area_density(trunk, origin);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -81,13 +82,42 @@ bool append_ground(const TrunkMesh& mesh, std::span<const std::uint32_t> triangl
   return true;
 }
 
+// Reads rings, and needs half of what the trunk takes up for that; gone while a large surface is read by
+// other means, which need as much.
+class Readers {
+ public:
+  explicit Readers(const TrunkMesh& mesh) : mesh_(mesh) { make(); }
+  RingReader& get() {
+    if (!reader_) make();
+    return *reader_;
+  }
+  void release() {
+    reader_.reset();
+    fans_.reset();
+  }
+  const auto& repeated() const { return repeated_; }  // as Fans has them
+
+ private:
+  void make() {
+    fans_.emplace(make_fans(mesh_.positions.size(), mesh_.triangles));
+    repeated_ = fans_->repeated;
+    reader_.emplace(mesh_, *fans_);
+  }
+
+  const TrunkMesh& mesh_;
+  std::optional<Fans> fans_;
+  std::optional<RingReader> reader_;
+  decltype(Fans::repeated) repeated_;
+};
+
+constexpr std::size_t k_readers_again = 4;  // times that they are made again at most
+
 Limbs read_limbs(const TrunkMesh& mesh, const RecoverOptions& options) {
   Limbs limbs;
   limbs.owner.assign(mesh.triangles.size(), k_none);
   limbs.lid.assign(mesh.triangles.size(), 0);
-  const Fans fans = make_fans(mesh.positions.size(), mesh.triangles);
+  Readers readers(mesh);
   const Surfaces surfaces = make_surfaces(mesh);
-  RingReader reader(mesh, fans);
   const WeldedOptions welded{options.skeleton == Skeleton::automatic ? WeldedMethod::automatic
                              : options.skeleton == Skeleton::rings   ? WeldedMethod::rings
                                                                      : WeldedMethod::surface};
@@ -100,14 +130,15 @@ Limbs read_limbs(const TrunkMesh& mesh, const RecoverOptions& options) {
       ++grounds;
       continue;
     }
-    if (options.skeleton != Skeleton::surface && reader.read(triangles, surfaces.vertices(s), limbs)) {
+    if (options.skeleton != Skeleton::surface && readers.get().read(triangles, surfaces.vertices(s), limbs)) {
       ++tubes;
       continue;
     }
+    if (triangles.size() * k_readers_again >= mesh.triangles.size()) readers.release();
     append_welded(recover_welded(mesh, triangles, welded), triangles, limbs);
     welded_triangles += triangles.size();
   }
-  for (const auto& [triangle, original] : fans.repeated) {
+  for (const auto& [triangle, original] : readers.repeated()) {
     limbs.owner[triangle] = limbs.owner[original];
     limbs.lid[triangle] = limbs.lid[original];
   }
