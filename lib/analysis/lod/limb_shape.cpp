@@ -327,7 +327,6 @@ void LimbShape::thin_out_radii() {
   }
 }
 
-// Whether surfaces of several limbs begin at the ring.
 bool LimbShape::is_fork(std::size_t i) const {
   const Radius& r = tree_.hierarchy.radii[limb_.radii[i]];
   if (r.flags & Radius::terminal) return false;

@@ -50,6 +50,8 @@ class LimbShape {
 
   std::size_t ring_count() const { return rings_.size(); }
   const RingShape& ring(std::size_t i) const { return rings_[i]; }
+  // Whether surfaces of several limbs begin at ring i.
+  bool is_fork(std::size_t i) const;
   double length_between(std::size_t a, std::size_t b) const { return along_[b] - along_[a]; }
   // Whether the triangles of interval i (between rings i and i + 1) are a plain band, with at most a lid.
   bool regular(std::size_t i) const { return regular_[i]; }
@@ -119,7 +121,6 @@ class LimbShape {
   void make_frames(const std::vector<Double3>& centres);
   void read_ring(std::size_t i);
   void read_sides(std::size_t interval, std::array<std::vector<RingSide>, 2>& scratch);
-  bool is_fork(std::size_t i) const;
   void narrow(std::size_t interval, double area);
   void fit_width(std::size_t interval, std::size_t end,
                  const std::vector<std::array<std::uint32_t, 2>>& loop);

@@ -3,6 +3,7 @@
 #include "lib/analysis/lod/limb_ladder.h"
 #include "lib/analysis/lod/limb_leaves.h"
 #include "lib/analysis/lod/limb_shape.h"
+#include "lib/analysis/lod/ring_places.h"
 #include "lib/analysis/lod/spectrum_builder.h"
 
 #include <algorithm>
@@ -42,6 +43,10 @@ class LimbTubes {
             std::uint32_t number, Pieces& out)
       : tree_(tree), trunk_(trunk), limb_(limb), shape_(shape), number_(number), out_(out) {
     rings_.resize(2 * shape.ring_count());
+    for (std::size_t i = 0; i < shape.ring_count(); ++i) {
+      centres_.push_back(shape.ring(i).centre), radii_.push_back(shape.ring(i).radius);
+      along_.push_back(shape.length_between(0, i));
+    }
   }
 
   // Triangles of full detail.
@@ -69,22 +74,24 @@ class LimbTubes {
     before_.swap(now_), now_.clear();
     auto old = before_.begin();
     const double wider = rung.kept.empty() ? 1 : shape_.wider(rung.kept);
+    const std::vector<Double3> shifts = shifts_of(rung);
     for (std::size_t i = 0; i + 1 < rung.kept.size(); ++i) {
       const std::uint32_t a = rung.kept[i], b = rung.kept[i + 1];
-      const bool own = b == a + 1 && rung.sides == shape_.sides() && shape_.regular(a);
+      const bool own = is_own(rung, i);
       Interval interval{.a = a,
                         .b = b,
                         .sides = own ? 0 : rung.sides,
                         .wider = own ? 1 : wider,
+                        .shifts = {shifts[i], shifts[i + 1]},
                         .first_piece = piece_count()};
       while (old != before_.end() && old->a < a) bury(*old++, birth);
       if (old != before_.end() && old->a == a && old->b == b && old->sides == interval.sides &&
-          old->wider == interval.wider) {
+          old->wider == interval.wider && old->shifts == interval.shifts) {
         now_.push_back(*old++);
         continue;
       }
       begin(interval, birth, shape_.material(a));
-      add_tube(a, b, rung.sides, wider, i + 2 == rung.kept.size());
+      add_tube(interval, rung.sides, i + 2 == rung.kept.size());
       interval.end_piece = piece_count();
       now_.push_back(interval);
     }
@@ -96,6 +103,7 @@ class LimbTubes {
   struct Interval {
     std::uint32_t a = 0, b = 0, sides = 0;  // sides 0: the mesh's own triangles
     double wider = 1;
+    std::array<Double3, 2> shifts{};  // of rings a and b
     std::uint32_t first_piece = 0, end_piece = 0;
   };
   // The vertices of a ring as the interval before or behind it has them.
@@ -103,7 +111,23 @@ class LimbTubes {
     std::uint32_t sides = 0, first = 0;
     int turned = 0;
     double wider = 1;
+    Double3 shift{};
   };
+
+  // Whether what is between two rings that are kept is the mesh's own.
+  bool is_own(const LimbRung& rung, std::size_t i) const {
+    const std::uint32_t a = rung.kept[i], b = rung.kept[i + 1];
+    return b == a + 1 && rung.sides == shape_.sides() && shape_.regular(a);
+  }
+  // What is welded to the mesh's own triangles stays where it is.
+  std::vector<Double3> shifts_of(const LimbRung& rung) const {
+    std::vector<std::uint8_t> fixed;
+    for (std::size_t i = 0; i < rung.kept.size(); ++i)
+      fixed.push_back(rung.sides == shape_.sides() && shape_.is_fork(rung.kept[i]));
+    for (std::size_t i = 0; i + 1 < rung.kept.size(); ++i)
+      if (is_own(rung, i)) fixed[i] = fixed[i + 1] = 1;
+    return ring_shifts({centres_, along_, radii_}, rung.kept, fixed);
+  }
 
   std::uint32_t piece_count() const { return static_cast<std::uint32_t>(out_.pieces.size()); }
   void begin(const Interval& interval, std::uint32_t birth, std::uint32_t material) {
@@ -135,12 +159,14 @@ class LimbTubes {
 
   // Where the numbers of the vertices of a ring as they are in an interval begin in numbers_; equal vertices
   // of both intervals are shared.
-  std::uint32_t ring(std::uint32_t i, std::uint32_t interval, std::uint32_t sides, int turned, double wider) {
+  std::uint32_t ring(std::uint32_t i, std::uint32_t interval, std::uint32_t sides, int turned, double wider,
+                     const Double3& shift) {
     Ring& own = rings_[2 * i + (i == interval ? 1 : 0)];
-    if (own.sides == sides && own.turned == turned && own.wider == wider) return own.first;
-    own = {sides, static_cast<std::uint32_t>(numbers_.size()), turned, wider};
+    if (own.sides == sides && own.turned == turned && own.wider == wider && own.shift == shift)
+      return own.first;
+    own = {sides, static_cast<std::uint32_t>(numbers_.size()), turned, wider, shift};
     const Ring& other = rings_[2 * i + (i == interval ? 0 : 1)];
-    const bool alike = other.sides == sides && other.wider == wider &&
+    const bool alike = other.sides == sides && other.wider == wider && other.shift == shift &&
                        (i == 0 || shape_.width(i, i) == shape_.width(i, i - 1));
     const auto in_other = [&](std::size_t j) {
       const std::int64_t k = sides, at = static_cast<std::int64_t>(j) + turned - other.turned;
@@ -154,6 +180,7 @@ class LimbTubes {
       }
     } else {
       shape_.append_ring(i, interval, sides, turned, ribbon_angle(), wider, scratch_);
+      for (SpectrumVertex& v : scratch_) v.position = to_float(to_double(v.position) + shift);
     }
     for (std::size_t j = 0; j < scratch_.size(); ++j) {
       const SpectrumVertex& v = scratch_[j];
@@ -168,15 +195,18 @@ class LimbTubes {
     return own.first;
   }
 
-  void add_tube(std::uint32_t a, std::uint32_t b, std::uint32_t sides, double wider, bool last) {
+  void add_tube(const Interval& interval, std::uint32_t sides, bool last) {
+    const std::uint32_t a = interval.a, b = interval.b;
+    const double wider = interval.wider;
     if (sides == 1) {
       const auto corners = shape_.spike(ribbon_angle());
       add({make(corners[0]), make(corners[1]), make(corners[2])});
       return;
     }
     const bool point = last && shape_.pointed();
-    const std::uint32_t first_low = ring(a, a, sides, 0, wider),
-                        first_high = ring(b, b - 1, sides, shape_.turn(a, b, sides), wider);
+    const std::uint32_t first_low = ring(a, a, sides, 0, wider, interval.shifts[0]),
+                        first_high =
+                            ring(b, b - 1, sides, shape_.turn(a, b, sides), wider, interval.shifts[1]);
     const auto low = [&](std::uint32_t j) { return numbers_[first_low + j]; };
     const auto high = [&](std::uint32_t j) { return numbers_[first_high + j]; };
     if (sides == 2) {
@@ -199,6 +229,8 @@ class LimbTubes {
   std::uint32_t number_;
   Pieces& out_;
   std::vector<Interval> now_, before_;
+  std::vector<Double3> centres_;  // of the rings
+  std::vector<double> along_, radii_;
   std::vector<Ring> rings_;             // two of every ring: as the interval before it has it, and behind
   std::vector<std::uint32_t> numbers_;  // of vertices
   std::vector<SpectrumVertex> scratch_;
