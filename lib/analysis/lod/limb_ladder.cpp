@@ -12,7 +12,7 @@ constexpr double k_rung_ratio = 0.85;  // of the triangles of the rung before: c
 constexpr double k_ribbon = 0.45, k_spike = 0.7;  // rms distance from a tube of radius 1
 
 // Of leaves whose twig went elsewhere, in square metres of silhouette a square metre of leaf.
-constexpr double k_left_behind = 0.2;
+constexpr double k_left_behind = 0.5;
 
 double roughness(std::uint32_t sides) {
   return sides == 2 ? k_ribbon : sides == 1 ? k_spike : polygon_roughness(sides);

@@ -18,9 +18,9 @@ namespace {
 using Face = std::array<std::uint32_t, 3>;
 
 constexpr double k_golden_angle = 2.399963229728653;
-// Of the tree's height: what a twig may go aside under its leaves. They float at half of that
-// (floating_leaves), but seldom lie just where the twig goes away from.
-constexpr double k_hold = 0.02;
+// Of the tree's height: what a twig may go aside under its leaves. At so much they float (floating_leaves),
+// and what they are merged to is far worse: with twice as much image errors are up to half larger.
+constexpr double k_hold = 0.01;
 
 // An element of one limb. Its life counts rungs of the limb: 0 is full detail, n what the nth rung makes.
 struct Piece {
