@@ -71,4 +71,17 @@ Result<void> write_base(const Options& options, const TreeFile& file, const std:
   return {};
 }
 
+void tell_streams(const std::vector<std::pair<const char*, std::vector<StreamCost>>>& sections,
+                  Context& context) {
+  Table table{.name = "streams",
+              .columns = {"Section", "Stream", "Values", "Coded bytes", "Bits a value"},
+              .rows = {}};
+  for (const auto& [section, streams] : sections)
+    for (const StreamCost& s : streams)
+      if (s.values > 0)
+        table.rows.push_back({section, s.name, std::to_string(s.values), fmt::format("{:.0f}", s.bits / 8),
+                              fmt::format("{:.2f}", s.bits / static_cast<double>(s.values))});
+  if (!table.rows.empty()) context.report().tables.push_back(std::move(table));
+}
+
 }  // namespace copse::lodbake

@@ -8,6 +8,8 @@
 #include "tools/lodbake/options.h"
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace copse::lodbake {
 
@@ -24,5 +26,9 @@ Result<void> number_leaves(const Spectrum& leaves, std::optional<PackedTree>& pa
 // it was: bounding volumes, foliage cells. With --encode small, what could not be packed is compressed.
 Result<void> write_base(const Options& options, const TreeFile& file, const std::optional<PackedTree>& packed,
                         ContainerWriter& writer, Context& context);
+
+// Table `streams` of the report: what each stream of these sections takes.
+void tell_streams(const std::vector<std::pair<const char*, std::vector<StreamCost>>>& sections,
+                  Context& context);
 
 }  // namespace copse::lodbake

@@ -169,8 +169,8 @@ Result<void> write(const Options& options, const TreeFile& file, const Tree& tre
   Stage stage = context.stage("write");
   ContainerWriter writer(file.container());
   if (auto done = write_base(options, file, packed, writer, context); !done) return done;
-  const auto errors = put_spectra(writer, stored, options.coding, &tree);
-  if (!errors) return std::unexpected(errors.error());
+  const auto costs = put_spectra(writer, stored, options.coding, &tree);
+  if (!costs) return std::unexpected(costs.error());
   for (const char* cells : {"FCEL", "FORD", "FVWS", "FVTR", "FVIS", "FPAR"}) writer.remove(cells);
   if (baked.cells) {
     if (auto done = put_foliage_cells(writer, *baked.cells); !done) return done;
@@ -183,8 +183,12 @@ Result<void> write(const Options& options, const TreeFile& file, const Tree& tre
     const auto tell = [&](const char* name, double error) {
       context.report().errors.push_back({name, error, "m", error, {}, {}, "the spectrum before coding"});
     };
-    tell("quantisation of the trunk, largest", errors->trunk);
-    tell("quantisation of the leaves, largest", errors->leaves);
+    tell("quantisation of the trunk, largest", costs->trunk_error);
+    tell("quantisation of the leaves, largest", costs->leaf_error);
+    tell_streams({{"PACK", packed ? packed->streams : std::vector<StreamCost>{}},
+                  {"LSTR", costs->trunk},
+                  {"LSLV", costs->leaves}},
+                 context);
   }
   return context.write(options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }

@@ -159,6 +159,7 @@ bool MadeLeaves::code_faces(LeafForest::Node& node) {
     const auto at = std::find(recent_faces_.begin(), recent_faces_.end(), node.faces);
     if (at != recent_faces_.end()) symbol = static_cast<std::uint64_t>(at - recent_faces_.begin()) + 1;
   }
+  c_.stream("made: triangles");
   symbol = c_.number(which_faces_, symbol);
   if (symbol > recent_faces_.size()) return false;
   if (symbol > 0) {
@@ -293,7 +294,10 @@ bool MadeLeaves::code_places(LeafForest::Node& node, const std::vector<Member>& 
     else if (fit = fit_framed(node, sum); fit.error <= k_frame_tolerance)
       mode = as_frame;
   }
+  c_.stream("made: mode");
   mode = c_.number(mode_, mode);
+  static const char* const k_names[] = {"made: grown", "made: framed", "made: corners"};
+  c_.stream(k_names[std::min<std::uint64_t>(mode, 2)]);
   if (mode == as_grown) {
     fit.like = static_cast<std::int64_t>(c_.number(like_, static_cast<std::uint64_t>(fit.like)));
     if (fit.like < 0 || fit.like >= static_cast<std::int64_t>(list.size())) return false;
@@ -375,6 +379,7 @@ void MadeLeaves::code_normals(LeafForest::Node& node, const Member* like, const 
     const auto off = [&](const Octahedral& o) { return std::abs(o[0] - own[0]) + std::abs(o[1] - own[1]); };
     mode = same ? as_like : !one ? each : off(face) < off(shaded) ? one_face : one_shaded;
   }
+  c_.stream("made: normals");
   mode = std::min<std::uint64_t>(c_.number(normal_mode_, mode), each);
   if (mode == as_like && like == nullptr) mode = one_shaded;
   Octahedral last = mode == one_face ? face : shaded;
@@ -405,6 +410,7 @@ bool MadeLeaves::code_texcoords(LeafForest::Node& node) {
     if (at != recent_texcoords_.end())
       symbol = static_cast<std::uint64_t>(at - recent_texcoords_.begin()) + 1;
   }
+  c_.stream("made: texture coordinates");
   symbol = c_.number(which_texcoords_, symbol);
   if (symbol > recent_texcoords_.size()) return false;
   if (symbol > 0) {

@@ -187,23 +187,26 @@ Result<void> decode_levels(std::span<const std::uint8_t> bytes, const std::strin
   return {};
 }
 
-Result<SpectraErrors> put_spectra(ContainerWriter& writer, const LodSpectra& spectra,
-                                  const SpectrumCodingOptions& options, const Tree* tree) {
-  SpectraErrors errors;
-  const auto add = [&](const char* name, const Spectrum& s, double& error) -> Result<void> {
+Result<SpectraCosts> put_spectra(ContainerWriter& writer, const LodSpectra& spectra,
+                                 const SpectrumCodingOptions& options, const Tree* tree) {
+  SpectraCosts costs;
+  const auto add = [&](const char* name, const Spectrum& s, double& error,
+                       std::vector<StreamCost>& streams) -> Result<void> {
     writer.remove(name);
     if (s.elements.empty()) return {};
     auto encoded = encode_spectrum(s, options, tree);
     if (!encoded) return std::unexpected(encoded.error());
-    error = encoded->position_error;
+    error = encoded->position_error, streams = std::move(encoded->streams);
     return writer.put(name, k_spectrum_version, 1, std::move(encoded->bytes));
   };
-  if (auto done = add("LSTR", spectra.trunk, errors.trunk); !done) return std::unexpected(done.error());
-  if (auto done = add("LSLV", spectra.leaves, errors.leaves); !done) return std::unexpected(done.error());
+  if (auto done = add("LSTR", spectra.trunk, costs.trunk_error, costs.trunk); !done)
+    return std::unexpected(done.error());
+  if (auto done = add("LSLV", spectra.leaves, costs.leaf_error, costs.leaves); !done)
+    return std::unexpected(done.error());
   const Encoding encoding = options.coding == SpectrumCoding::fast ? Encoding::raw : Encoding::zstd;
   if (auto done = writer.put("LSLD", k_spectrum_version, 1, encode_levels(spectra), encoding); !done)
     return std::unexpected(done.error());
-  return errors;
+  return costs;
 }
 
 bool has_spectra(const Container& file) {

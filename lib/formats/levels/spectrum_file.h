@@ -7,6 +7,7 @@
 
 #include "lib/formats/container/container.h"
 #include "lib/formats/levels/spectrum.h"
+#include "lib/formats/packing/range_coder.h"
 #include "lib/formats/result.h"
 #include "lib/formats/tree/tree.h"
 
@@ -35,6 +36,7 @@ struct EncodedSpectrum {
   std::vector<std::uint8_t> bytes;
   double position_error =
       0;  // the largest distance of a vertex from where it was, metres; at most half a step a side
+  std::vector<StreamCost> streams = {};  // of what is coded against the tree
 };
 
 // Deterministic. Errors: a spectrum whose arrays do not fit together is a bug of the caller.
@@ -57,12 +59,13 @@ std::vector<std::uint8_t> encode_levels(const LodSpectra& spectra);
 // levels'.
 Result<void> decode_levels(std::span<const std::uint8_t> bytes, const std::string& name, LodSpectra& spectra);
 
-struct SpectraErrors {
-  double trunk = 0, leaves = 0;  // of positions, metres
+struct SpectraCosts {
+  double trunk_error = 0, leaf_error = 0;  // of positions, metres
+  std::vector<StreamCost> trunk, leaves;   // of what is coded against the tree
 };
 // Adds or replaces the three sections; an empty spectrum has none.
-Result<SpectraErrors> put_spectra(ContainerWriter& writer, const LodSpectra& spectra,
-                                  const SpectrumCodingOptions& options, const Tree* tree = nullptr);
+Result<SpectraCosts> put_spectra(ContainerWriter& writer, const LodSpectra& spectra,
+                                 const SpectrumCodingOptions& options, const Tree* tree = nullptr);
 
 // Whether there are levels; and all of them, checked against the tree's counts.
 bool has_spectra(const Container& file);

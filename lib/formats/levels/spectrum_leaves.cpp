@@ -78,6 +78,7 @@ class Coder {
       const std::size_t first = tree_.first_triangle_of_leaf(leaf);
       const std::size_t end = std::min(tree_.first_triangle_of_leaf(leaf + 1), part_.triangles.size());
       for (std::size_t t = first; t < end; ++t) {
+        c_.stream("pieces");
         const std::uint64_t back =
             c_.number(piece_[std::min<std::size_t>(t - first, 7)], pieces - f_.piece_of[t]);
         if (back > pieces - base) return "a triangle belongs to a piece of another leaf";
@@ -109,6 +110,7 @@ class Coder {
       const std::uint32_t n = open.back();
       open.pop_back();
       Node& node = f_.nodes[n];
+      c_.stream("forest");
       const std::uint64_t children = c_.number(children_, node.children),
                           own = c_.number(own_[std::min<std::uint64_t>(children, 3)], node.sources);
       if (children > count - nodes || own > part_.triangles.size() - sources)
@@ -128,6 +130,7 @@ class Coder {
 
   // The next triangle that has not gone yet, mostly.
   bool code_source(std::uint32_t i) {
+    c_.stream("sources");
     if (c_.decoding()) f_.sources.push_back(0);
     while (next_ < used_.size() && used_[next_]) ++next_;
     const auto expected = static_cast<std::int64_t>(next_);
@@ -163,6 +166,7 @@ class Coder {
     make(f_.nodes[0]);
     std::uint32_t steps = 0;  // from the end
     for (std::size_t i = 1; i < n; ++i) {
+      c_.stream("steps");
       const bool together =
           i > 1 && c_.bit(together_, f_.nodes[order[i]].step == f_.nodes[order[i - 1]].step);
       const std::uint32_t wanted = c_.decoding() ? 0 : there.before(rank[order[i]]);
@@ -194,6 +198,7 @@ class Coder {
     for (float& e : errors_) {
       const std::uint32_t bits =
           c_.decoding() ? 0 : (std::bit_cast<std::uint32_t>(e) + (1u << k_dropped) - 1) >> k_dropped;
+      c_.stream("errors");
       before += static_cast<std::uint32_t>(c_.number(error_, bits - before));
       e = std::bit_cast<float>(std::min(before << k_dropped, 0x7f7fffffu));
     }
@@ -202,6 +207,7 @@ class Coder {
   std::string code_nodes() {
     for (const std::uint32_t n : order_) {
       Node& node = f_.nodes[n];
+      c_.stream("made: materials and radii");
       node.drawn = c_.bit(drawn_, node.drawn);
       if (!node.drawn) continue;
       const std::uint32_t like = node.sources > 0 ? f_.sources[node.first_source] : k_none;
@@ -303,6 +309,7 @@ std::optional<EncodedSpectrum> encode(const Spectrum& spectrum, const Tree& tree
                                                 to_double(forest->nodes[n].vertices[v].position)));
   out.bytes.resize(4);
   put(std::span(out.bytes), 0, exponent);
+  out.streams = coder.costs();
   const std::vector<std::uint8_t> coded = coder.finish();
   out.bytes.insert(out.bytes.end(), coded.begin(), coded.end());
   return out;

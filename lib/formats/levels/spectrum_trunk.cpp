@@ -105,6 +105,7 @@ class Coder {
     for (std::uint32_t n = 1; n < states; ++n) {
       std::uint64_t born = 0;
       while (next + born < made && p_.made[next + born].birth == n) ++born;
+      c_.stream("steps");
       born = c_.number(born_, born);
       if (born > k_most_faces) return "a step makes too much";
       const std::size_t first = next;
@@ -130,6 +131,7 @@ class Coder {
       const std::uint32_t base = pieces;
       const std::size_t end = std::min(tree_.first_triangle_of_segment(s + 1), part_.triangles.size());
       for (std::size_t t = tree_.first_triangle_of_segment(s); t < end; ++t) {
+        c_.stream("pieces");
         const std::uint64_t back =
             c_.number(piece_[t == tree_.first_triangle_of_segment(s)], pieces - p_.piece_of[t]);
         if (back > pieces - base) return "a triangle belongs to a piece of another segment";
@@ -154,6 +156,7 @@ class Coder {
       const std::uint32_t bits =
           c_.decoding() ? 0
                         : (std::bit_cast<std::uint32_t>(p_.errors[n]) + (1u << k_dropped) - 1) >> k_dropped;
+      c_.stream("errors");
       before += static_cast<std::uint32_t>(c_.number(error_, bits - before));
       before = std::min(before, 0x7f7fffffu >> k_dropped);
       p_.errors[n] = std::bit_cast<float>(before << k_dropped);
@@ -179,6 +182,7 @@ class Coder {
   }
 
   std::string code_ends(Made& m) {
+    c_.stream("tubes: ends");
     const std::int64_t r =
         last_radius_ + c_.signed_number(made_radius_, std::int64_t{m.radius} - last_radius_);
     if (r < 0 || r >= static_cast<std::int64_t>(parent_.size()))
@@ -206,10 +210,11 @@ class Coder {
     std::sort(replaced.begin(), replaced.end());
     replaced.erase(std::unique(replaced.begin(), replaced.end()), replaced.end());
     for (const std::uint32_t id : replaced)
-      if (c_.bit(goes_, death_of(id) == step)) die(id, step);
+      if (c_.stream("what goes"); c_.bit(goes_, death_of(id) == step)) die(id, step);
     if (!c_.decoding())
       for (const std::uint32_t id : alive_)
         if (death_of(id) == step) others.push_back(id);
+    c_.stream("what goes by number");
     const std::uint64_t n = c_.number(named_[end > first], others.size());
     if (n > alive_.size()) return "more goes than there is";
     others.resize(n);
@@ -228,6 +233,7 @@ class Coder {
 
   std::string code_tube(Made& m) {
     const std::uint32_t expected = tree_.trunk.material;
+    c_.stream("tubes: materials and patterns");
     m.material = c_.bit(same_material_, m.material == expected)
                      ? expected
                      : static_cast<std::uint32_t>(c_.number(material_, m.material + 1u)) - 1;
@@ -245,6 +251,7 @@ class Coder {
       const std::uint32_t wanted = c_.decoding() ? k_none : number_of(m.source[i]);
       std::uint32_t& v = m.vertices[i];
       const auto count = static_cast<std::uint32_t>(places_.size());
+      c_.stream("tubes: which vertices");
       if (like != k_none && c_.bit(again_[again_before_], wanted == like)) {
         v = like, again_before_ = true;
       } else if (again_before_ = false; c_.bit(old_, wanted != k_none)) {
@@ -354,6 +361,7 @@ class Coder {
     std::size_t kind = 0;
     const Place expected = expected_place(m, i, ends, list, like, kind);
     bool sound = true;
+    c_.stream("tubes: positions");
     for (std::size_t a = 0; a < 3; ++a) {
       own.rel[a] = expected.rel[a] + c_.signed_number(position_[kind][a], own.rel[a] - expected.rel[a]);
       sound = sound && std::abs(own.rel[a]) <= 16 * k_grid_limit;
@@ -362,9 +370,11 @@ class Coder {
         kind == 0 ? expected.normal : expected_normal(ends, e, list.size(), own, expected, kind);
     if (!c_.decoding() && near(own.normal, towards)) own.normal = towards;
     for (std::size_t k = 0; k < 2; ++k) {
+      c_.stream("tubes: normals");
       own.normal[k] = static_cast<std::int32_t>(std::clamp<std::int64_t>(
           towards[k] + c_.signed_number(normal_[std::min<std::size_t>(kind, 3)], own.normal[k] - towards[k]),
           -k_octahedral_limit, k_octahedral_limit));
+      c_.stream("tubes: texture coordinates");
       own.texcoord[k] =
           expected.texcoord[k] + c_.signed_number(texcoord_[kind][k], own.texcoord[k] - expected.texcoord[k]);
       sound = sound && std::abs(own.texcoord[k]) <= 16 * k_grid_limit;
@@ -636,6 +646,7 @@ std::optional<EncodedSpectrum> encode(const Spectrum& spectrum, const Tree& tree
   if (!std::make_unique<Coder>(coder, plan, tree, part)->run().empty()) return std::nullopt;
   EncodedSpectrum out{.bytes = std::vector<std::uint8_t>(8), .position_error = plan.largest_error};
   put(std::span(out.bytes), 0, plan.position), put(std::span(out.bytes), 4, plan.texcoord);
+  out.streams = coder.costs();
   const std::vector<std::uint8_t> coded = coder.finish();
   out.bytes.insert(out.bytes.end(), coded.begin(), coded.end());
   return out;

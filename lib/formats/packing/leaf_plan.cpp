@@ -1,18 +1,26 @@
 #include "lib/formats/packing/leaf_plan.h"
 
+#include "lib/formats/packing/leaf_anchor.h"
 #include "lib/formats/packing/leaf_frame.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
 
 namespace copse {
 namespace {
 
-constexpr double k_same_shape = 0.6;            // steps: by which two leaves of one shape may differ
-constexpr std::size_t k_most_classes = 256;     // shapes of a pattern that a leaf is compared with
-constexpr std::uint32_t k_worth = 3;            // leaves that pay for a shape's places
-constexpr std::uint32_t k_most_vertices = 256;  // of a leaf that may be a frame
+constexpr double k_same_shape = 0.6;             // steps: by which two leaves of one shape may differ
+constexpr std::size_t k_most_classes = 256;      // shapes of a pattern that a leaf is compared with
+constexpr std::uint32_t k_worth = 3;             // leaves that pay for a shape's places
+constexpr double k_anchored = 16;                // steps: how near a limb half of a shape's leaves sit
+constexpr double k_near_limb = 64;               // and how near one of them
+constexpr double k_limb_cell = 4 * k_near_limb;  // of a grid of limbs
+constexpr std::size_t k_samples = 64;            // leaves that tell where those of their shape sit
+constexpr std::size_t k_corners = 8;             // of a leaf that may be where it sits, or half way
+constexpr std::uint32_t k_most_vertices = 256;   // of a leaf that may be a frame
 
 struct Source {
   std::uint32_t pattern = 0, shape = 0, group = 0, material = 0;
@@ -79,15 +87,19 @@ Grid3 rounded(const Double3& p) {
 
 class Planner {
  public:
-  Planner(const Tree& tree, const PackGrid& grid) : tree_(tree), grid_(grid) {}
+  Planner(const Tree& tree, const PackGrid& grid, const PackedTrunk& trunk)
+      : tree_(tree), grid_(grid), anchors_(trunk, tree.header.roots) {}
 
   PackedLeaves run(std::span<const std::uint32_t> order) {
-    std::uint32_t group = 0, left = 0;
     for (const LeafGroup& g : tree_.leaves.groups) out_.group_sizes.push_back(g.count);
-    for (const std::uint32_t leaf : order) {
-      while (left == 0 && group < out_.group_sizes.size()) left = out_.group_sizes[group++];
-      --left;
-      read(leaf), sources_.back().group = group - 1;
+    place_limbs();
+    read(order, {});
+    if (const std::vector<std::uint8_t> turned = first_corners();
+        std::find_if(turned.begin(), turned.end(), [](auto x) { return x != 0; }) != turned.end()) {
+      std::vector<std::uint8_t> of_leaf;
+      for (const Source& s : sources_) of_leaf.push_back(turned[s.pattern]);
+      sources_.clear(), out_.patterns.clear(), pattern_number_.clear();
+      read(order, of_leaf);
     }
     classify();
     make_shapes();
@@ -95,13 +107,25 @@ class Planner {
       out_.list.push_back(placed(s));
       out_.largest_error = std::max(out_.largest_error, worst(out_.list.back(), s));
     }
+    anchor();
     shade();
     for (std::size_t i = 0; i < sources_.size(); ++i) map(sources_[i], out_.list[i]);
     return std::move(out_);
   }
 
  private:
-  void read(std::uint32_t leaf) {
+  void read(std::span<const std::uint32_t> order, const std::vector<std::uint8_t>& turned) {
+    std::uint32_t group = 0, left = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      while (left == 0 && group < out_.group_sizes.size()) left = out_.group_sizes[group++];
+      --left;
+      read(order[i], turned.empty() ? 0 : turned[i]);
+      sources_.back().group = group - 1;
+    }
+  }
+
+  // `turned`: the corner of the first triangle that comes first.
+  void read(std::uint32_t leaf, std::size_t turned) {
     const Leaves& l = tree_.leaves;
     Source s;
     LeafPattern p;
@@ -110,8 +134,10 @@ class Planner {
     for (std::size_t t = tree_.first_triangle_of_leaf(leaf); t < tree_.first_triangle_of_leaf(leaf + 1);
          ++t) {
       const CornerTriangle& corners = l.triangles[t];
+      const std::size_t turn = t == tree_.first_triangle_of_leaf(leaf) ? turned : 0;
       auto &vs = p.vertices.emplace_back(), &ws = p.wedges.emplace_back();
-      for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const std::size_t c = (corner + turn) % 3;
         const std::uint32_t v = corners.vertex[c];
         const auto [at, is_new] = vertex.try_emplace(v, p.vertex_count);
         if (is_new) ++p.vertex_count, s.places.push_back(to_double(l.vertices[v]) / grid_.step());
@@ -127,7 +153,7 @@ class Planner {
           s.normals.push_back(normal ? normalized(to_double(l.normals[corners.normal[c]])) : Double3{});
           s.texcoords.push_back(texcoord ? on_grid(l.texcoords[corners.texcoord[c]]) : Grid2{});
         }
-        vs[c] = at->second, ws[c] = w->second;
+        vs[corner] = at->second, ws[corner] = w->second;
       }
     }
     const auto [at, is_new] =
@@ -228,6 +254,132 @@ class Planner {
     x.half = std::abs(angle) > quarter;
     if (x.half) angle += angle > 0 ? -2 * quarter : 2 * quarter;
     x.turn = std::llround(std::tan(angle / 2) * turn_units(edge));
+  }
+
+  // ---- anchors
+
+  struct Seat {
+    std::uint32_t limb = k_none, along = 0;
+    double away = std::numeric_limits<double>::infinity();
+  };
+  // The nearest place on a limb: of its group, or any that is about as near as it has to be.
+  Seat seat(std::size_t group, const Double3& p) const {
+    Seat best;
+    for (std::uint32_t r = anchors_.radius_above(group, 0), up = 0; r != k_none && up < k_most_up; ++up) {
+      sit(r, p, best);
+      r = anchors_.parent(r);
+    }
+    if (best.away <= 1) return best;
+    const auto near = limbs_at_.find(cell_of(p));
+    if (near == limbs_at_.end()) return best;
+    for (const std::uint32_t r : near->second) sit(r, p, best);
+    return best;
+  }
+  void sit(std::uint32_t r, const Double3& p, Seat& best) const {
+    const std::optional<LeafLimb> limb = anchors_.limb(r);
+    if (!limb) return;
+    const Double3 way = limb->to - limb->from;
+    const double size = dot(way, way),
+                 t = size > 0 ? std::clamp(dot(p - limb->from, way) / size, 0.0, 1.0) : 0;
+    const double most = std::ldexp(1.0, limb->along_bits());
+    const auto along = static_cast<std::uint32_t>(std::min(std::floor(t * most + 0.5), most - 1));
+    if (const double d = distance(p, limb->point(along)); d < best.away) best = {r, along, d};
+  }
+
+  static Grid3 cell_of(const Double3& p) {
+    const auto cell = [](double x) { return static_cast<std::int64_t>(std::floor(x / k_limb_cell)); };
+    return {cell(p.x), cell(p.y), cell(p.z)};
+  }
+  // Which limbs pass through or beside each cell.
+  void place_limbs() {
+    for (std::uint32_t r = 0; r < anchors_.count(); ++r) {
+      const std::optional<LeafLimb> limb = anchors_.limb(r);
+      if (!limb) continue;
+      const double size = distance(limb->from, limb->to);
+      const auto parts = static_cast<std::uint32_t>(2 * size / k_limb_cell) + 1;
+      for (std::uint32_t i = 0; i <= parts; ++i) {
+        const Double3 p = limb->from + (limb->to - limb->from) * (double(i) / double(parts));
+        for (int side = 0; side < 8; ++side) {
+          const Double3 reach{side & 1 ? k_near_limb : -k_near_limb, side & 2 ? k_near_limb : -k_near_limb,
+                              side & 4 ? k_near_limb : -k_near_limb};
+          std::vector<std::uint32_t>& list = limbs_at_[cell_of(p + reach)];
+          if (list.empty() || list.back() != r) list.push_back(r);
+        }
+      }
+    }
+  }
+
+  // Of every pattern the corner to begin with: that whose edge lies best across the limb.
+  std::vector<std::uint8_t> first_corners() const {
+    std::vector<std::array<double, 3>> bits(out_.patterns.size());
+    std::vector<std::size_t> seen(out_.patterns.size(), 0);
+    for (const Source& s : sources_) {
+      const auto& faces = out_.patterns[s.pattern].vertices;
+      if (faces.empty() || seen[s.pattern]++ >= k_samples) continue;
+      Seat best;
+      for (std::size_t v = 0; v < std::min(s.places.size(), k_corners); ++v)
+        for (std::size_t u = 0; u <= v; ++u)
+          if (const Seat other = seat(s.group, (s.places[u] + s.places[v]) / 2); other.away < best.away)
+            best = other;
+      if (best.limb == k_none) continue;
+      const Double3 axis = anchors_.limb(best.limb)->axis(best.along);
+      for (std::size_t k = 0; k < 3; ++k)
+        bits[s.pattern][k] +=
+            std::log2(1 + std::abs(dot(s.places[faces[0][(k + 1) % 3]] - s.places[faces[0][k]], axis)));
+    }
+    std::vector<std::uint8_t> out;
+    for (std::size_t p = 0; p < bits.size(); ++p) {
+      const auto& b = bits[p];
+      const auto least = static_cast<std::size_t>(std::min_element(b.begin(), b.end()) - b.begin());
+      const double gain = b[0] - b[least];
+      out.push_back(gain > double(std::min(seen[p], k_samples)) ? static_cast<std::uint8_t>(least)
+                                                                : std::uint8_t{0});
+    }
+    return out;
+  }
+
+  // Where the leaves of each shape sit on their limbs, if they do.
+  void anchor() {
+    std::vector<std::vector<std::uint32_t>> members(out_.shapes.size());
+    for (std::uint32_t i = 0; i < out_.list.size(); ++i)
+      if (out_.list[i].framed) members[out_.list[i].shape].push_back(i);
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      PackedShape& shape = out_.shapes[k];
+      if (members[k].size() < k_worth || !find_anchor(members[k], shape)) continue;
+      shape.anchored = true;
+      for (const std::uint32_t i : members[k]) {
+        PackedLeaf& x = out_.list[i];
+        const Seat s = seat(sources_[i].group, place_of(x, shape, shape.anchor));
+        if (s.away <= k_near_limb) x.limb = s.limb, x.along = s.along;
+      }
+    }
+  }
+  Double3 place_of(const PackedLeaf& x, const PackedShape& shape, const Grid3& in_frame) const {
+    const std::vector<Double3> places = leaf_places(x, shape, out_.patterns[shape.pattern].vertex_count);
+    const Double3 edge = places[1] - places[0];
+    const LeafFrame f = leaf_frame(edge, x.half, double(x.turn) / turn_units(edge));
+    return places[0] + f.out_of(real(in_frame) * (f.length / k_leaf_unit));
+  }
+
+  // The corner, or the point half way between two, that is nearest to limbs in most of the leaves.
+  bool find_anchor(const std::vector<std::uint32_t>& members, PackedShape& shape) const {
+    std::vector<Grid3> corners{{0, 0, 0}, {static_cast<std::int64_t>(k_leaf_unit), 0, 0}};
+    for (std::size_t v = 0; v < shape.places.size() && corners.size() < k_corners; ++v)
+      corners.push_back(shape.places[v]);
+    double least = k_anchored;
+    const std::size_t apart = std::max<std::size_t>(1, members.size() / k_samples);
+    for (std::size_t v = 0; v < corners.size(); ++v)
+      for (std::size_t u = 0; u <= v; ++u) {
+        Grid3 p{};
+        for (std::size_t a = 0; a < 3; ++a) p[a] = (corners[u][a] + corners[v][a]) / 2;
+        std::vector<double> away;
+        for (std::size_t i = 0; i < members.size(); i += apart)
+          away.push_back(seat(sources_[members[i]].group, place_of(out_.list[members[i]], shape, p)).away);
+        std::nth_element(away.begin(), away.begin() + static_cast<std::ptrdiff_t>(away.size() / 2),
+                         away.end());
+        if (const double half = away[away.size() / 2]; half < least) least = half, shape.anchor = p;
+      }
+    return least < k_anchored;
   }
 
   // ---- normals
@@ -370,6 +522,8 @@ class Planner {
 
   const Tree& tree_;
   PackGrid grid_;
+  LeafAnchors anchors_;
+  std::map<Grid3, std::vector<std::uint32_t>> limbs_at_;
   PackedLeaves out_;
   std::vector<Source> sources_;
   std::vector<Class> classes_;
@@ -378,8 +532,9 @@ class Planner {
 
 }  // namespace
 
-PackedLeaves plan_leaves(const Tree& tree, const PackGrid& grid, std::span<const std::uint32_t> order) {
-  return Planner(tree, grid).run(order);
+PackedLeaves plan_leaves(const Tree& tree, const PackGrid& grid, const PackedTrunk& trunk,
+                         std::span<const std::uint32_t> order) {
+  return Planner(tree, grid, trunk).run(order);
 }
 
 }  // namespace copse

@@ -15,6 +15,7 @@ inline constexpr double k_leaf_normal_tolerance = 0.02;  // radians: a normal th
 // `order`: the leaves as they are to be stored, each group's together. Every vertex is within
 // k_leaf_tolerance of where it was, or on the nearest place of the grid; every normal within
 // k_leaf_normal_tolerance, or the nearest octahedral one. Linear in the leaves.
-PackedLeaves plan_leaves(const Tree& tree, const PackGrid& grid, std::span<const std::uint32_t> order);
+PackedLeaves plan_leaves(const Tree& tree, const PackGrid& grid, const PackedTrunk& trunk,
+                         std::span<const std::uint32_t> order);
 
 }  // namespace copse

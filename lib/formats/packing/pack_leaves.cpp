@@ -1,15 +1,20 @@
 #include "lib/formats/packing/pack_leaves.h"
 
+#include "lib/formats/packing/context_mixing.h"
+#include "lib/formats/packing/leaf_anchor.h"
 #include "lib/formats/packing/leaf_frame.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace copse {
 namespace {
 
+constexpr std::size_t k_recent_texcoords = 64;
+constexpr double k_like_lean = 0.3, k_slow_lean = 1.0 / 16, k_fast_lean = 1.0 / 3;
 constexpr std::size_t k_recent = 256;  // shapes and patterns that a leaf may name
 constexpr std::int64_t k_most_units = std::int64_t{1} << 30;
 
@@ -21,7 +26,8 @@ bool in_grid(const Grid3& a) {
 
 class LeafCoder {
  public:
-  LeafCoder(RangeCoder& coder, PackedLeaves& leaves, const Head& head) : c_(coder), l_(leaves), head_(head) {}
+  LeafCoder(RangeCoder& coder, PackedLeaves& leaves, const PackedTrunk& trunk, const Head& head)
+      : c_(coder), l_(leaves), head_(head), anchors_(trunk, head.header.roots) {}
 
   std::string run() {
     if (std::string wrong = code_groups(); !wrong.empty()) return wrong;
@@ -31,16 +37,18 @@ class LeafCoder {
       for (std::uint32_t i = 0; i < l_.group_sizes[g]; ++i, ++leaf) {
         if (c_.decoding()) l_.list.emplace_back();
         PackedLeaf& x = l_.list[leaf];
+        c_.stream("leaves: shapes");
         if (!code_shape(x)) return "a leaf's shape is not there";
         const LeafPattern& pattern = l_.patterns[l_.shapes[x.shape].pattern];
         triangles += pattern.vertices.size();
         if (triangles > head_.counts.leaf_triangles) return "the leaves have too many triangles";
-        code_place(x, pattern, i == 0);
+        code_texcoords(x, pattern);
+        if (!code_place(x, pattern, g, i == 0)) return "a leaf sits on a limb that is not there";
         for (const Grid3& v : x.vertices)
           if (!in_grid(v)) return "a leaf is out of range";
         code_normals(x, pattern, g);
-        code_texcoords(x, pattern);
         if (head_.leaf_materials) {
+          c_.stream("leaves: materials");
           if (c_.bit(same_material_, x.material == material_))
             x.material = material_;
           else
@@ -58,6 +66,7 @@ class LeafCoder {
     if (c_.decoding()) l_.group_sizes.resize(head_.counts.groups);
     std::uint64_t sum = 0;
     for (std::uint32_t& n : l_.group_sizes) {
+      c_.stream("leaves: groups");
       const std::uint64_t size = c_.number(group_size_, n);
       if (size == 0 || size > head_.counts.leaves - sum) return "a group has no leaf, or too many";
       sum += n = static_cast<std::uint32_t>(size);
@@ -157,19 +166,16 @@ class LeafCoder {
       for (const std::int64_t a : x)
         if (std::abs(a) > k_most_units) return false;
     }
-    const std::size_t wedges = p.vertex_of.size();
-    if (p.has_texcoords) {
-      if (c_.decoding()) s.texcoords.resize(wedges);
-      Grid2 before{};
-      for (Grid2& uv : s.texcoords) {
-        for (std::size_t k = 0; k < 2; ++k)
-          uv[k] = before[k] + c_.signed_number(shape_texcoord_, uv[k] - before[k]);
-        if (std::abs(uv[0]) > k_grid_limit || std::abs(uv[1]) > k_grid_limit) return false;
-        before = uv;
-      }
+    if (s.framed) s.anchored = c_.bit(anchored_shape_, s.anchored);
+    for (std::size_t k = 0; k < 3 && s.anchored; ++k) {
+      s.anchor[k] = c_.signed_number(place_, s.anchor[k]);
+      if (std::abs(s.anchor[k]) > k_most_units) return false;
     }
+    const std::size_t wedges = p.vertex_of.size();
+    if (p.has_texcoords && !code_shape_texcoords(s, wedges)) return false;
     if (!p.has_normals) return !c_.failed();
-    s.normals = static_cast<LeafNormals>(c_.plain(2, static_cast<std::uint32_t>(s.normals)));
+    s.normals = static_cast<LeafNormals>(std::min<std::uint64_t>(
+        c_.number(rule_, static_cast<std::uint64_t>(s.normals)), std::uint64_t(LeafNormals::from_centre)));
     if (s.normals == LeafNormals::from_centre && l_.normal_centres.empty()) return false;
     if (s.normals == LeafNormals::fixed) {
       if (c_.decoding()) s.fixed.resize(wedges);
@@ -185,32 +191,165 @@ class LeafCoder {
     }
     return !c_.failed();
   }
+  // As one of the recent shapes', or new ones.
+  bool code_shape_texcoords(PackedShape& s, std::size_t wedges) {
+    std::uint64_t symbol = 0;
+    if (!c_.decoding()) {
+      const auto at = std::find(recent_texcoords_.begin(), recent_texcoords_.end(), s.texcoords);
+      if (at != recent_texcoords_.end())
+        symbol = static_cast<std::uint64_t>(at - recent_texcoords_.begin()) + 1;
+    }
+    symbol = c_.number(which_texcoords_, symbol);
+    if (symbol > recent_texcoords_.size()) return false;
+    if (symbol > 0) {
+      s.texcoords = recent_texcoords_[symbol - 1];
+      recent_texcoords_.erase(recent_texcoords_.begin() + static_cast<std::ptrdiff_t>(symbol) - 1);
+      if (s.texcoords.size() != wedges) return false;
+    } else {
+      if (c_.decoding()) s.texcoords.resize(wedges);
+      Grid2 before{};
+      for (Grid2& uv : s.texcoords) {
+        for (std::size_t k = 0; k < 2; ++k)
+          uv[k] = before[k] + c_.signed_number(shape_texcoord_, uv[k] - before[k]);
+        if (std::abs(uv[0]) > k_grid_limit || std::abs(uv[1]) > k_grid_limit) return false;
+        before = uv;
+      }
+    }
+    recent_texcoords_.insert(recent_texcoords_.begin(), s.texcoords);
+    if (recent_texcoords_.size() > k_recent_texcoords) recent_texcoords_.pop_back();
+    return true;
+  }
+
   static std::int32_t limited(std::int64_t x) {
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(x, -k_octahedral_limit, k_octahedral_limit));
   }
 
-  void code_place(PackedLeaf& x, const LeafPattern& p, bool is_first) {
+  bool code_place(PackedLeaf& x, const LeafPattern& p, std::size_t group, bool is_first) {
     const PackedShape& s = l_.shapes[x.shape];
     if (s.framed) x.framed = c_.bit(framed_, x.framed);
     if (x.framed && !s.framed) x.framed = false;
     const std::size_t n = x.framed ? 2 : p.vertex_count;
     if (c_.decoding()) x.vertices.resize(n);
-    for (std::size_t v = 0; v < n; ++v) {
-      std::size_t kind = v == 0 ? (is_first ? 0 : 1) : x.framed ? 2 : 3;
-      const Grid3 expected = v == 0 ? last_ : expected_vertex(x, p, v, kind);
-      for (std::size_t a = 0; a < 3; ++a)
-        x.vertices[v][a] =
-            grid_offset(expected[a] + c_.signed_number(vertex_[kind][a], x.vertices[v][a] - expected[a]));
+    if (x.framed && s.anchored) {
+      c_.stream("leaves: limbs");
+      if (!code_limb(x, group, is_first)) return false;
+      if (x.limb != k_none) return code_anchored(x, s);
     }
+    for (std::size_t v = 0; v < n; ++v) code_vertex(x, p, v, is_first);
     if (n > 0) last_ = x.vertices[0];
-    if (!x.framed) return;
+    if (!x.framed) return true;
+    c_.stream("leaves: turns");
     x.half = c_.bit(half_, x.half);
     x.turn = c_.signed_number(turn_, x.turn);
     x.turn = std::clamp<std::int64_t>(x.turn, -k_most_units, k_most_units);
+    return true;
   }
 
-  // A parallelogram with a triangle before, or the vertex before.
-  static Grid3 expected_vertex(const PackedLeaf& x, const LeafPattern& p, std::size_t v, std::size_t& kind) {
+  void code_vertex(PackedLeaf& x, const LeafPattern& p, std::size_t v, bool is_first) {
+    std::size_t kind = v == 0 ? (is_first ? 0 : 1) : x.framed ? 2 : 3;
+    const Grid3 expected = v == 0 ? last_ : expected_vertex(x, p, v, kind);
+    c_.stream(v == 0 ? "leaves: first corners" : "leaves: other corners");
+    std::size_t before = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::int64_t off = vertex_.code(
+          c_, {3 * kind + a, 24 * kind + before, 24 * kind + off_[std::min<std::size_t>(v, 7)][a]},
+          x.vertices[v][a] - expected[a]);
+      x.vertices[v][a] = grid_offset(expected[a] + off);
+      before = std::min<std::size_t>(size_class(off), 23), off_[std::min<std::size_t>(v, 7)][a] = before;
+    }
+  }
+
+  // None, so many up from where the group is, or another: one of the last such, or by number.
+  bool code_limb(PackedLeaf& x, std::size_t group, bool is_first) {
+    std::uint64_t symbol = 0;
+    if (!c_.decoding() && x.limb != k_none) {
+      symbol = k_most_up + 1;
+      for (std::uint32_t up = 0; up < k_most_up && symbol > k_most_up; ++up)
+        if (anchors_.radius_above(group, up) == x.limb) symbol = up + 1;
+    }
+    symbol = up_.code(c_, {last_up_, is_first ? std::size_t{0} : std::size_t{1}}, symbol);
+    last_up_ = static_cast<std::size_t>(std::min<std::uint64_t>(symbol, k_most_up + 1));
+    if (symbol <= k_most_up) {
+      x.limb = symbol == 0 ? k_none : anchors_.radius_above(group, static_cast<std::uint32_t>(symbol - 1));
+      return symbol == 0 || x.limb != k_none;
+    }
+    if (bool sound = true; recall(recent_limbs_, recent_limb_, x.limb, sound))
+      return true;
+    else if (!sound)
+      return false;
+    const std::int64_t from = anchors_.radius_above(group, 0);
+    const std::int64_t r = from + c_.signed_number(limb_, std::int64_t{x.limb} - from);
+    if (r < 0 || r >= std::int64_t{anchors_.count()}) return false;
+    x.limb = static_cast<std::uint32_t>(r);
+    remember(recent_limbs_, x.limb);
+    return true;
+  }
+
+  // Its edge, its turn and then its place: by the limb that it sits on.
+  bool code_anchored(PackedLeaf& x, const PackedShape& s) {
+    const std::optional<LeafLimb> limb = anchors_.limb(x.limb);
+    if (!limb) return false;
+    c_.stream("leaves: places on limbs");
+    x.along = c_.plain(limb->along_bits(), x.along);
+    const Double3 axis = limb->axis(x.along);
+    c_.stream("leaves: edges");
+    Grid3 edge{};
+    if (!c_.decoding())
+      for (std::size_t a = 0; a < 3; ++a) edge[a] = x.vertices[1][a] - x.vertices[0][a];
+    code_edge(edge, axis);
+    c_.stream("leaves: turns");
+    const Double3 e = real(edge);
+    // What ends a limb leans otherwise than what sits along it.
+    const bool ends = x.along + 1 == 1u << limb->along_bits();
+    auto& [lean, number] = leans_.try_emplace({x.shape, ends}, LeafLean{1, 0}, leans_.size()).first->second;
+    const bool half = turn_of(lean, e, axis).half;
+    x.half = c_.bit(other_half_, x.half != half) ? !half : half;
+    const double units = turn_units(e);
+    const std::int64_t expected = std::llround(turn_of(lean, e, axis, x.half) * units);
+    const std::int64_t off = lean_.code(c_, {number, off_turn_}, x.turn - expected);
+    x.turn = std::clamp<std::int64_t>(expected + off, -k_most_units, k_most_units);
+    off_turn_ = size_class(off);
+    const LeafFrame frame = leaf_frame(e, x.half, double(x.turn) / units);
+    const LeafLean own = lean_of(frame, axis);
+    const bool alike = std::abs(own[0] - lean[0]) + std::abs(own[1] - lean[1]) < k_like_lean;
+    for (std::size_t k = 0; k < 2; ++k) lean[k] += (own[k] - lean[k]) * (alike ? k_slow_lean : k_fast_lean);
+    c_.stream("leaves: anchors");
+    const Double3 at = limb->point(x.along) - frame.out_of(real(s.anchor) * (frame.length / k_leaf_unit));
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::int64_t guess = std::llround(at[static_cast<int>(a)]);
+      x.vertices[0][a] = grid_offset(guess + anchor_.code(c_, {a, off_anchor_[a]}, x.vertices[0][a] - guess));
+      off_anchor_[a] = size_class(x.vertices[0][a] - guess);
+      x.vertices[1][a] = grid_offset(x.vertices[0][a] + edge[a]);
+    }
+    last_ = x.vertices[0];
+    return true;
+  }
+
+  // Across the limb: the coordinate in which the limb goes farthest follows from the other two.
+  void code_edge(Grid3& edge, const Double3& axis) {
+    std::array<std::size_t, 3> order{0, 1, 2};
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return std::abs(axis[static_cast<int>(a)]) < std::abs(axis[static_cast<int>(b)]);
+    });
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t a = order[k];
+      const double along = axis[static_cast<int>(a)];
+      const std::int64_t expected =
+          k < 2 ? 0 : std::llround(-sum / (along < 0 ? std::min(along, -0.5) : std::max(along, 0.5)));
+      const std::int64_t off = edge_.code(c_, {k, 3 * off_edge_ + k}, edge[a] - expected);
+      edge[a] = grid_offset(expected + off), off_edge_ = size_class(off);
+      sum += along * double(edge[a]);
+    }
+  }
+
+  // As its texture coordinates lie in the triangle of the first three; a parallelogram with a triangle
+  // before; or the vertex before.
+  Grid3 expected_vertex(const PackedLeaf& x, const LeafPattern& p, std::size_t v, std::size_t& kind) const {
+    if (Grid3 out{}; v >= 3 && as_mapped(x, p, v, out)) {
+      kind = 5;
+      return out;
+    }
     for (std::size_t t = 0; t < p.vertices.size() && v >= 3 && t < 64; ++t) {
       const auto& own = p.vertices[t];
       for (std::size_t k = 0; k < 3; ++k) {
@@ -235,9 +374,32 @@ class LeafCoder {
     return x.vertices[v - 1];
   }
 
+  // Affine in texture coordinates.
+  bool as_mapped(const PackedLeaf& x, const LeafPattern& p, std::size_t v, Grid3& out) const {
+    if (!p.has_texcoords) return false;
+    const std::vector<Grid2>& uvs = x.mapped ? l_.shapes[x.shape].texcoords : x.texcoords;
+    std::array<const Grid2*, 4> uv{};
+    for (std::size_t w = 0; w < p.vertex_of.size(); ++w) {
+      const std::size_t at = p.vertex_of[w] == v ? 3 : p.vertex_of[w];
+      if (at < 4 && (p.vertex_of[w] < 3 || p.vertex_of[w] == v) && uv[at] == nullptr) uv[at] = &uvs[w];
+    }
+    if (std::find(uv.begin(), uv.end(), nullptr) != uv.end()) return false;
+    const auto side = [&](std::size_t i, std::size_t k) { return double((*uv[i])[k] - (*uv[0])[k]); };
+    const double area = side(1, 0) * side(2, 1) - side(1, 1) * side(2, 0);
+    if (area == 0) return false;
+    const double s = (side(3, 0) * side(2, 1) - side(3, 1) * side(2, 0)) / area,
+                 t = (side(1, 0) * side(3, 1) - side(1, 1) * side(3, 0)) / area;
+    if (!(std::abs(s) <= 4 && std::abs(t) <= 4)) return false;
+    for (std::size_t a = 0; a < 3; ++a)
+      out[a] = x.vertices[0][a] + std::llround(s * double(x.vertices[1][a] - x.vertices[0][a]) +
+                                               t * double(x.vertices[2][a] - x.vertices[0][a]));
+    return true;
+  }
+
   void code_normals(PackedLeaf& x, const LeafPattern& p, std::size_t group) {
     if (!p.has_normals) return;
     const PackedShape& s = l_.shapes[x.shape];
+    c_.stream("leaves: normals");
     const bool by_rule = s.normals != LeafNormals::given;
     if (by_rule) x.shaded = c_.bit(shaded_, x.shaded);
     if (x.shaded) return;
@@ -259,6 +421,7 @@ class LeafCoder {
   void code_texcoords(PackedLeaf& x, const LeafPattern& p) {
     if (!p.has_texcoords) return;
     const PackedShape& s = l_.shapes[x.shape];
+    c_.stream("leaves: texture coordinates");
     x.mapped = c_.bit(mapped_, x.mapped);
     if (x.mapped) return;
     if (c_.decoding()) x.texcoords.resize(p.vertex_of.size());
@@ -273,24 +436,33 @@ class LeafCoder {
   RangeCoder& c_;
   PackedLeaves& l_;
   const Head& head_;
-  std::vector<std::uint32_t> recent_shapes_, recent_patterns_;
+  LeafAnchors anchors_;
+  std::vector<std::uint32_t> recent_shapes_, recent_patterns_, recent_limbs_;
   std::uint32_t material_ = 0;
   Grid3 last_{};
   Octahedral last_normal_{};
+  std::vector<std::vector<Grid2>> recent_texcoords_;
+  // Of the last leaf of each shape, and the shape's number by first use.
+  std::map<std::pair<std::uint32_t, bool>, std::pair<LeafLean, std::size_t>> leans_;
+  std::size_t last_up_ = 0, off_turn_ = 0, off_edge_ = 0;
+  std::array<std::size_t, 3> off_anchor_{};
+  std::array<std::array<std::size_t, 3>, 8> off_{};
 
-  NumberModel group_size_, shape_, pattern_, triangles_, vertex_index_, wedge_index_, material_model_;
+  NumberModel recent_limb_, rule_, which_texcoords_, group_size_, shape_, pattern_, triangles_, vertex_index_,
+      wedge_index_, material_model_;
   std::array<BitModel, 2> pattern_bits_;
-  BitModel framed_shape_, framed_, half_, shaded_, mapped_, same_material_;
+  BitModel framed_shape_, anchored_shape_, framed_, half_, other_half_, shaded_, mapped_, same_material_;
   std::array<SignedModel, 3> centre_;
-  SignedModel place_, shape_texcoord_, shape_normal_, point_, turn_, texcoord_;
+  SignedModel limb_, place_, shape_texcoord_, shape_normal_, point_, turn_, texcoord_;
   std::array<SignedModel, 2> normal_;
-  std::array<std::array<SignedModel, 3>, 5> vertex_;
+  MixedSigned vertex_{18, 144, 144}, edge_{3, 75}, lean_{16, 32}, anchor_{3, 25};
+  MixedNumber up_{k_most_up + 2, 2};
 };
 
 }  // namespace
 
-std::string code_leaves(RangeCoder& coder, PackedLeaves& leaves, const Head& head) {
-  return std::make_unique<LeafCoder>(coder, leaves, head)->run();
+std::string code_leaves(RangeCoder& coder, PackedLeaves& leaves, const PackedTrunk& trunk, const Head& head) {
+  return std::make_unique<LeafCoder>(coder, leaves, trunk, head)->run();
 }
 
 std::string build_leaves(const PackedLeaves& leaves, const PackGrid& grid, const Head& head, Tree& tree) {

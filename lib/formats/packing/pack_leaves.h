@@ -38,10 +38,12 @@ struct PackedLeaf {
   std::uint32_t shape = 0;
   std::uint32_t material = 0;        // one above the tree's index, 0 for none
   std::vector<Grid3> vertices = {};  // on the grid; of a framed leaf only the first two count
-  bool framed = false;               // the other vertices follow from the shape
-  bool half = false;                 // its turn round its first edge: (1 - t^2, 2 t) / (1 + t^2), or opposite
-  std::int64_t turn = 0;             // t in units of 1 / turn_units
-  bool shaded = false;               // normals follow from the shape
+  std::uint32_t limb = k_none;  // the radius at the end of the limb on which its anchor sits (leaf_anchor.h)
+  std::uint32_t along = 0;      // and where
+  bool framed = false;          // the other vertices follow from the shape
+  bool half = false;            // its turn round its first edge: (1 - t^2, 2 t) / (1 + t^2), or opposite
+  std::int64_t turn = 0;        // t in units of 1 / turn_units
+  bool shaded = false;          // normals follow from the shape
   std::vector<Octahedral> normals = {};  // of wedges, otherwise
   bool mapped = false;                   // texture coordinates are the shape's
   std::vector<Grid2> texcoords = {};
@@ -51,6 +53,8 @@ struct PackedShape {
   std::uint32_t pattern = 0;
   bool framed = false;                // otherwise leaves of this shape are stored vertex by vertex
   std::vector<Grid3> places = {};     // from vertex 2 on, in the frame of the first edge, its length 2^16
+  bool anchored = false;              // a point of its frame sits on a limb
+  Grid3 anchor{};                     // as places
   std::vector<Grid2> texcoords = {};  // of wedges
   LeafNormals normals = LeafNormals::given;
   std::vector<Octahedral> fixed = {};  // of wedges, in the frame
@@ -67,7 +71,7 @@ struct PackedLeaves {
 };
 
 // Codes them, or fills them by what is coded. What is wrong with what is decoded, empty when nothing is.
-std::string code_leaves(RangeCoder& coder, PackedLeaves& leaves, const Head& head);
+std::string code_leaves(RangeCoder& coder, PackedLeaves& leaves, const PackedTrunk& trunk, const Head& head);
 
 // The leaves of `tree`, but for what follows from them and the groups' centres.
 std::string build_leaves(const PackedLeaves& leaves, const PackGrid& grid, const Head& head, Tree& tree);

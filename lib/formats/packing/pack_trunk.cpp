@@ -1,5 +1,8 @@
 #include "lib/formats/packing/pack_trunk.h"
 
+#include "lib/formats/packing/context_mixing.h"
+#include "lib/formats/packing/leaf_frame.h"
+#include "lib/formats/packing/pack_corners.h"
 #include "lib/formats/tree/derive_tree.h"
 
 #include <algorithm>
@@ -12,8 +15,8 @@ namespace {
 
 using Symbols = std::vector<std::uint8_t>;
 
-constexpr std::size_t k_recent = 16;       // vertices that a triangle may name by how long ago they were used
-constexpr std::size_t k_most_wedges = 64;  // of a vertex that are looked at
+constexpr double k_in_line = 0.05;    // square of the sine between two vectors of a ring
+constexpr std::size_t k_recent = 16;  // vertices that a triangle may name by how long ago they were used
 enum Symbol : std::uint8_t { next_of_child = k_recent, next_of_parent, by_number, symbol_count };
 
 Grid3 operator+(const Grid3& a, const Grid3& b) {
@@ -21,9 +24,6 @@ Grid3 operator+(const Grid3& a, const Grid3& b) {
 }
 Grid3 operator-(const Grid3& a, const Grid3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Double3 real(const Grid3& a) {
-  return {double(a[0]), double(a[1]), double(a[2])};
 }
 bool in_grid(const Grid3& a) {
   return std::all_of(a.begin(), a.end(), [](std::int64_t x) { return std::abs(x) <= k_grid_limit; });
@@ -37,12 +37,8 @@ Float3 stored(const Grid3& a, double step) {
 struct Shape {
   std::vector<std::uint32_t> parent, first;
 
-  Shape(const PackedTrunk& trunk, std::uint32_t roots) : parent(trunk.radii.size(), k_none), first{0} {
-    std::uint32_t next = roots;
-    for (std::uint32_t r = 0; r < trunk.radii.size(); ++r) {
-      for (std::uint32_t c = 0; c < trunk.radii[r].children; ++c) parent[next++] = r;
-      first.push_back(first.back() + trunk.radii[r].vectors);
-    }
+  Shape(const PackedTrunk& trunk, std::uint32_t roots) : parent(parents_of(trunk, roots)), first{0} {
+    for (const PackedRadius& r : trunk.radii) first.push_back(first.back() + r.vectors);
   }
 };
 
@@ -98,7 +94,7 @@ class TrunkCoder {
     if (lines.size() != head_.counts.segments) return "its segments are not as many as the header says";
     if (std::string wrong = code_triangles(lines); !wrong.empty()) return wrong;
     code_materials();
-    return code_wedges(lines);
+    return code_corners(c_, t_, lines, head_);
   }
 
  private:
@@ -113,6 +109,7 @@ class TrunkCoder {
       PackedRadius& x = t_.radii[r];
       const std::uint32_t p = parent[r];
       const std::size_t kind = p == k_none ? 0 : t_.radii[p].children > 1 ? 1 : 2;
+      c_.stream("radii: links");
       const std::uint64_t children = c_.number(children_[kind], x.children);
       if (children > t_.radii.size() - next) return "a radius has more children than there are radii";
       x.children = static_cast<std::uint32_t>(children);
@@ -121,8 +118,10 @@ class TrunkCoder {
         x.group = group += 1 + c_.signed_number(group_, x.group - group - 1);
       if (x.group >= std::int64_t{head_.counts.groups} || x.group < -1) return "a leaf group out of range";
       x.joint = c_.bit(joint_[kind], x.joint);
+      c_.stream("radii: centres");
       code_centre(x, p, p == k_none ? k_none : parent[p], kind);
       if (!in_grid(x.centre)) return "a radius is out of range";
+      c_.stream("radii: links");
       const std::int64_t like = p == k_none ? 0 : t_.radii[p].vectors;
       const std::int64_t n = like + c_.signed_number(ring_size_[kind], std::int64_t{x.vectors} - like);
       if (n < 0 || n > std::int64_t{head_.counts.trunk_vertices} - vertices)
@@ -139,8 +138,19 @@ class TrunkCoder {
     Grid3 expected{};
     if (p != k_none) expected = t_.radii[p].centre;
     if (before != k_none) expected = expected + (t_.radii[p].centre - t_.radii[before].centre);
-    for (std::size_t a = 0; a < 3; ++a)
-      x.centre[a] = expected[a] + c_.signed_number(centre_[kind][a], x.centre[a] - expected[a]);
+    const std::size_t reach =
+        p == k_none || before == k_none ? 0 : length_class(t_.radii[p].centre - t_.radii[before].centre);
+    std::size_t last = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::int64_t off =
+          centre_.code(c_, {3 * kind + a, 24 * kind + last, 24 * kind + reach}, x.centre[a] - expected[a]);
+      x.centre[a] = expected[a] + off;
+      last = std::min<std::size_t>(size_class(off), 23);
+    }
+  }
+
+  static std::size_t length_class(const Grid3& v) {
+    return std::min<std::size_t>(size_class(std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2])), 23);
   }
 
   void code_ring(std::uint32_t r) {
@@ -151,21 +161,45 @@ class TrunkCoder {
     for (std::uint32_t j = 0; j < x.vectors; ++j) {
       Grid3& v = t_.vectors[first + j];
       Grid3 expected{};
-      if (alike) {
+      if (alike && j >= 2) {
+        expected = as_image(first, shape_->first[p], j);
+      } else if (alike) {
         expected = as_parents(first, shape_->first[p], j);
       } else if (j >= 2) {
         expected = around(first, j, x.vectors);
       } else if (j == 1) {
         for (std::size_t a = 0; a < 3; ++a) expected[a] = -t_.vectors[first][a] / 2;
       }
-      const std::size_t kind = alike ? (j == 0 ? 0 : 1) : j == 0 ? 2 : j == 1 ? 3 : 4;
-      for (std::size_t a = 0; a < 3; ++a)
-        v[a] = grid_offset(expected[a] + c_.signed_number(vector_[kind][a], v[a] - expected[a]));
+      const std::size_t kind = alike ? std::min<std::size_t>(j, 2) : 3 + std::min<std::size_t>(j, 2);
+      const std::size_t reach = length_class(expected);
+      c_.stream("rings: vectors");
+      std::size_t last = 0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const std::int64_t off = vector_.code(
+            c_, {3 * kind + a, 24 * kind + last, 24 * kind + reach, 24 * kind + off_[a]}, v[a] - expected[a]);
+        v[a] = grid_offset(expected[a] + off);
+        last = off_[a] = std::min<std::size_t>(size_class(off), 23);
+      }
       sum += length(real(v));
     }
     const std::int64_t mean = x.vectors == 0 ? 0 : std::llround(8 * sum / x.vectors);
+    c_.stream("rings: diameters");
     x.diameter = mean + c_.signed_number(diameter_, x.diameter - mean);
     if (x.diameter < 0 || x.diameter > 16 * k_grid_limit) x.diameter = 0;
+  }
+
+  // The parent's vector by the parent's first two, in this ring's: as a ring that is turned, stretched or
+  // sheared lies; as the parent's where those two are nearly in line.
+  Grid3 as_image(std::uint32_t first, std::uint32_t parents, std::uint32_t j) const {
+    const Double3 a = real(t_.vectors[parents]), b = real(t_.vectors[parents + 1]),
+                  p = real(t_.vectors[parents + j]);
+    const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), area = aa * bb - ab * ab;
+    if (!(area > k_in_line * aa * bb)) return as_parents(first, parents, j);
+    const double ap = dot(a, p), bp = dot(b, p), s = (ap * bb - bp * ab) / area,
+                 t = (bp * aa - ap * ab) / area;
+    if (!(std::abs(s) <= 2 && std::abs(t) <= 2)) return as_parents(first, parents, j);
+    const Double3 x = real(t_.vectors[first]) * s + real(t_.vectors[first + 1]) * t;
+    return {std::llround(x.x), std::llround(x.y), std::llround(x.z)};
   }
 
   // The parent's vector, as much longer as the one before was.
@@ -233,6 +267,7 @@ class TrunkCoder {
       Segment here = segment(lines[s]);
       const std::array<std::uint32_t, 2> rings{here.size[0], here.size[1]};
       const std::int64_t like = usual_.count(rings) ? usual_[rings] : rings[0] + rings[1];
+      c_.stream("trunk triangles: counts");
       const std::int64_t n = like + c_.signed_number(count_, std::int64_t{t_.counts[s]} - like);
       if (n < 0 || n > std::int64_t{head_.counts.trunk_triangles} - at)
         return "a segment has too many triangles";
@@ -250,24 +285,30 @@ class TrunkCoder {
   }
 
   bool code_corner(Segment& s, std::uint32_t& v, const Symbols& like, Symbols& symbols) {
+    c_.stream("trunk triangles: corners");
     std::uint8_t symbol = c_.decoding() ? std::uint8_t{0} : symbol_of(s, v);
     const std::size_t i = symbols.size();
     const std::uint8_t before = i > 0 ? symbols[i - 1] : std::uint8_t{symbol_count};
     const std::uint8_t two = i > 1 ? symbols[i - 2] : std::uint8_t{symbol_count};
-    const bool expected = i < like.size();
-    if (expected && c_.bit(as_before_[before == like[i - (i > 0)]], symbol == like[i])) {
-      symbol = like[i];
-    } else {
-      auto& model =
-          symbol_[i % 3][std::min<std::size_t>(before, symbol_count)][std::min<std::size_t>(two, 3)];
-      symbol = static_cast<std::uint8_t>(std::min<std::uint64_t>(c_.number(model, symbol), symbol_count));
-    }
+    constexpr std::size_t n = symbol_count + 1;
+    const std::size_t expected = i < like.size() ? like[i] : n;
+    const bool went = i > 0 && i <= like.size() && before == like[i - 1];
+    const std::size_t last = std::min<std::size_t>(before, symbol_count), corner = i % 3;
+    const auto sides = [](std::size_t k) { return std::min<std::size_t>(k, 7); };
+    symbol = static_cast<std::uint8_t>(std::min<std::size_t>(
+        symbol_.code(c_,
+                     {3 * last + corner, 3 * (n * last + std::min<std::size_t>(two, symbol_count)) + corner,
+                      2 * (3 * expected + corner) + (went ? 1 : 0),
+                      3 * (n * (8 * sides(s.size[0]) + sides(s.size[1])) + last) + corner},
+                     symbol),
+        symbol_count));
     if (symbol < k_recent) {
       if (symbol >= s.recent.size()) return false;
       v = s.recent[symbol];
     } else if (symbol == next_of_child || symbol == next_of_parent) {
       v = next_in(s, symbol - next_of_child);
     } else {
+      c_.stream("trunk triangles: corners by number");
       const std::int64_t base = s.ring[0];
       v = static_cast<std::uint32_t>(base + c_.signed_number(vertex_, std::int64_t{v} - base));
     }
@@ -287,161 +328,24 @@ class TrunkCoder {
         m = static_cast<std::uint32_t>(before = c_.number(material_, m));
   }
 
-  // ---- what corners carry
-
-  std::string code_wedges(const std::vector<std::array<std::uint32_t, 2>>& lines) {
-    if (head_.counts.trunk_normals == 0 && head_.counts.trunk_texcoords == 0) return "";
-    t_.flat = c_.plain(1, t_.flat) != 0;
-    measure_surface();
-    known_.assign(t_.vectors.size(), {});
-    std::map<std::array<std::uint32_t, 3>, Symbols> seen;
-    std::uint32_t at = 0;
-    for (std::size_t s = 0; s < lines.size(); ++s) {
-      const std::uint32_t begin = at;
-      const Segment here = segment(lines[s]);
-      Symbols& like = seen[{here.size[0], here.size[1], t_.counts[s]}];
-      Symbols symbols;
-      for (const std::uint32_t end = at + t_.counts[s]; at < end; ++at) {
-        for (std::size_t corner = 0; corner < 3; ++corner)
-          if (!code_wedge(here, begin, at, corner, like, symbols)) return "a corner names what is not there";
-        if (c_.failed()) return "it ends in normals and texture coordinates";
-      }
-      like = std::move(symbols);
-    }
-    return "";
-  }
-
-  void measure_surface() {
-    places_.clear();
-    for (std::uint32_t r = 0; r < t_.radii.size(); ++r)
-      for (std::uint32_t v = shape_->first[r]; v < shape_->first[r + 1]; ++v)
-        places_.push_back(t_.radii[r].centre + t_.vectors[v]);
-    smooth_.assign(places_.size(), Double3{});
-    for (const auto& t : t_.triangles)
-      for (const std::uint32_t v : t) smooth_[v] += face(t);
-  }
-  Double3 face(const std::array<std::uint32_t, 3>& t) const {
-    return cross(real(places_[t[1]] - places_[t[0]]), real(places_[t[2]] - places_[t[0]]));
-  }
-
-  bool code_wedge(const Segment& here, std::uint32_t begin, std::uint32_t at, std::size_t corner,
-                  const Symbols& like, Symbols& symbols) {
-    const std::uint32_t v = t_.triangles[at][corner];
-    PackedWedge& wedge = t_.wedges[at][corner];
-    std::vector<PackedWedge>& known = known_[v];
-    std::uint64_t symbol = 0;
-    if (!c_.decoding()) {
-      const auto found = std::find(known.begin(), known.end(), wedge);
-      if (found != known.end()) symbol = static_cast<std::uint64_t>(found - known.begin()) + 1;
-    }
-    const std::size_t i = symbols.size();
-    if (!known.empty()) {
-      const std::size_t guess = i < like.size() ? std::min<std::size_t>(like[i], 3) : 4;
-      const std::size_t before = i > 0 ? std::min<std::size_t>(symbols[i - 1], 2) : 3;
-      symbol = c_.number(choice_[guess][before], symbol);
-    }
-    if (symbol > known.size()) return false;
-    symbols.push_back(static_cast<std::uint8_t>(std::min<std::uint64_t>(symbol, 255)));
-    if (symbol == 0) {
-      code_normal(wedge, at, known);
-      code_texcoord(wedge, here, begin, at, corner, known);
-    } else {
-      wedge = known[symbol - 1];
-      known.erase(known.begin() + static_cast<std::ptrdiff_t>(symbol) - 1);
-    }
-    known.insert(known.begin(), wedge);
-    if (known.size() > k_most_wedges) known.pop_back();
-    return true;
-  }
-
-  void code_normal(PackedWedge& wedge, std::uint32_t at, const std::vector<PackedWedge>& known) {
-    if (head_.counts.trunk_normals == 0) return;
-    wedge.has_normal = c_.bit(has_normal_, wedge.has_normal);
-    if (!wedge.has_normal) return;
-    const bool again = !known.empty() && !t_.flat && known[0].has_normal;
-    const Double3 n = t_.flat ? face(t_.triangles[at]) : smooth_[vertex_of(at, wedge)];
-    const Octahedral expected = again ? known[0].normal : to_octahedral(normalized(n));
-    for (std::size_t k = 0; k < 2; ++k)
-      wedge.normal[k] =
-          clamped(expected[k] + c_.signed_number(normal_[again], wedge.normal[k] - expected[k]));
-  }
-  std::uint32_t vertex_of(std::uint32_t at, const PackedWedge& wedge) const {
-    return t_.triangles[at][static_cast<std::size_t>(&wedge - t_.wedges[at].data())];
-  }
-  static std::int32_t clamped(std::int64_t x) {
-    return static_cast<std::int32_t>(std::clamp<std::int64_t>(x, -k_octahedral_limit, k_octahedral_limit));
-  }
-
-  void code_texcoord(PackedWedge& wedge, const Segment& here, std::uint32_t begin, std::uint32_t at,
-                     std::size_t corner, const std::vector<PackedWedge>& known) {
-    if (head_.counts.trunk_texcoords == 0) return;
-    wedge.has_texcoord = c_.bit(has_texcoord_, wedge.has_texcoord);
-    if (!wedge.has_texcoord) return;
-    std::size_t kind = 0;
-    const Grid2 expected = expected_texcoord(here, begin, at, corner, known, kind);
-    for (std::size_t k = 0; k < 2; ++k) {
-      wedge.texcoord[k] = expected[k] + c_.signed_number(texcoord_[kind][k], wedge.texcoord[k] - expected[k]);
-      if (std::abs(wedge.texcoord[k]) > k_grid_limit) wedge.texcoord[k] = 0;
-    }
-    last_ = wedge.texcoord;
-  }
-
-  Grid2 expected_texcoord(const Segment& here, std::uint32_t begin, std::uint32_t at, std::size_t corner,
-                          const std::vector<PackedWedge>& known, std::size_t& kind) const {
-    const auto& t = t_.triangles[at];
-    const std::uint32_t v = t[corner];
-    if (!known.empty()) return kind = 0, known[0].texcoord;
-    // In a ring as its neighbour is, seen from the ring before.
-    const std::uint32_t k = here.size[0];
-    if (k > 1 && k == here.size[1] && v >= here.ring[0] && v < here.ring[0] + k) {
-      const std::uint32_t j = v - here.ring[0], i = (j + k - 1) % k;
-      const auto &b = known_[here.ring[0] + i], &a = known_[here.ring[1] + j], &z = known_[here.ring[1] + i];
-      if (!a.empty() && !b.empty() && !z.empty())
-        return kind = 1, moved(b[0].texcoord, z[0].texcoord, a[0].texcoord);
-    }
-    // Across the edge to the triangle on its other side.
-    if (corner == 2) {
-      for (std::uint32_t back = at; back-- > begin && at - back <= 4;) {
-        const auto& u = t_.triangles[back];
-        for (std::size_t e = 0; e < 3; ++e) {
-          const std::uint32_t x = u[e], y = u[(e + 1) % 3];
-          if (!((x == t[0] && y == t[1]) || (x == t[1] && y == t[0]))) continue;
-          const auto &w = t_.wedges[back], &own = t_.wedges[at];
-          return kind = 2, moved(own[0].texcoord, w[(e + 2) % 3].texcoord, own[1].texcoord);
-        }
-      }
-    }
-    if (corner > 0) return kind = 3, t_.wedges[at][corner - 1].texcoord;
-    return kind = 4, last_;
-  }
-  static Grid2 moved(const Grid2& a, const Grid2& from, const Grid2& to) {
-    return {a[0] + to[0] - from[0], a[1] + to[1] - from[1]};
-  }
-
   RangeCoder& c_;
   PackedTrunk& t_;
   const Head& head_;
   const Shape* shape_ = nullptr;
   std::map<std::array<std::uint32_t, 2>, std::int64_t> usual_;
   std::map<std::array<std::uint32_t, 3>, Symbols> seen_;
-  std::vector<Grid3> places_;
-  std::vector<Double3> smooth_;
-  std::vector<std::vector<PackedWedge>> known_;
-  Grid2 last_{};
 
   std::array<NumberModel, 3> children_;
   std::array<SignedModel, 3> ring_size_;
-  std::array<std::array<SignedModel, 3>, 3> centre_;
-  std::array<std::array<SignedModel, 3>, 5> vector_;
+  MixedSigned centre_{9, 72, 72}, vector_{18, 144, 144, 144};
+  std::array<std::size_t, 3> off_{};
   std::array<BitModel, 3> joint_;
-  BitModel has_group_, same_material_, has_normal_, has_texcoord_;
-  std::array<BitModel, 2> as_before_;
+  BitModel has_group_, same_material_;
   SignedModel group_, diameter_, count_, vertex_;
   NumberModel material_;
-  std::array<std::array<std::array<NumberModel, 4>, symbol_count + 1>, 3> symbol_;
-  std::array<std::array<NumberModel, 4>, 5> choice_;
-  std::array<SignedModel, 2> normal_;
-  std::array<std::array<SignedModel, 2>, 5> texcoord_;
+  MixedSymbol symbol_{symbol_count + 1,
+                      {3 * (symbol_count + 1), 3 * (symbol_count + 1) * (symbol_count + 1),
+                       6 * (symbol_count + 2), 192 * (symbol_count + 1)}};
 };
 
 Grid3 on_grid(const Double3& p, double step) {
@@ -458,21 +362,6 @@ PackedWedge wedge_of(const Trunk& trunk, const CornerTriangle& t, std::size_t c,
     w.texcoord = {std::llround(uv.x / grid.texcoord_step()), std::llround(uv.y / grid.texcoord_step())};
   }
   return w;
-}
-
-// Whether normals are rather those of the faces than those of a smooth surface.
-bool looks_flat(const Tree& tree) {
-  const std::vector<Float3> places = trunk_vertices(tree);
-  double apart = 0;
-  std::size_t n = 0;
-  for (const CornerTriangle& t : tree.trunk.triangles) {
-    const auto p = [&](std::size_t c) { return to_double(places[t.vertex[c]]); };
-    const Double3 face = normalized(cross(p(1) - p(0), p(2) - p(0)), {});
-    for (const std::uint32_t k : t.normal)
-      if (k != k_none && !tree.trunk.normals.empty())
-        apart += 1 - dot(face, to_double(tree.trunk.normals[k])), ++n;
-  }
-  return n > 0 && apart < 0.004 * static_cast<double>(n);  // 5 degrees, rms
 }
 
 // A walk over the triangles of a segment from neighbour to neighbour, each turned so that the edge to the one
@@ -545,6 +434,14 @@ double PackGrid::texcoord_step() const {
   return std::ldexp(1.0, texcoord);
 }
 
+std::vector<std::uint32_t> parents_of(const PackedTrunk& trunk, std::uint32_t roots) {
+  std::vector<std::uint32_t> parent(trunk.radii.size(), k_none);
+  std::uint32_t next = roots;
+  for (std::uint32_t r = 0; r < trunk.radii.size(); ++r)
+    for (std::uint32_t c = 0; c < trunk.radii[r].children; ++c) parent[next++] = r;
+  return parent;
+}
+
 PackedTrunk plan_trunk(const Tree& tree, const PackGrid& grid) {
   PackedTrunk out;
   const double step = grid.step();
@@ -589,7 +486,7 @@ PackedTrunk plan_trunk(const Tree& tree, const PackGrid& grid) {
                               1);
     }
   }
-  out.flat = looks_flat(tree);
+  out.normals = nearest_normals(out, tree.header.roots);
   return out;
 }
 

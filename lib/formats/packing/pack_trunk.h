@@ -53,6 +53,10 @@ struct PackedRadius {
   std::int64_t diameter = 0;  // in quarter steps
 };
 
+// What normals are told from: the sum of the faces round a vertex, each by its area or its angle there; away
+// from the centre of the ring; or the faces themselves.
+enum class TrunkNormals : std::uint8_t { by_area, by_angle, radial, faces };
+
 struct PackedTrunk {
   std::vector<PackedRadius> radii;  // breadth first
   std::vector<Grid3> vectors;       // from the centre
@@ -61,9 +65,12 @@ struct PackedTrunk {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<PackedWedge, 3>> wedges;
   std::vector<std::uint32_t> materials;  // of triangles; one above the tree's material index, 0 for none
-  bool flat = false;                     // normals are those of the faces
-  double largest_error = 0;              // of plan_trunk: steps
+  TrunkNormals normals = TrunkNormals::by_area;
+  double largest_error = 0;  // of plan_trunk: steps
 };
+
+// Of radii breadth first, the parent of each, or none.
+std::vector<std::uint32_t> parents_of(const PackedTrunk& trunk, std::uint32_t roots);
 
 // Of a tree that is no .tree and has all its sections. Triangles and segments come in the packed order.
 PackedTrunk plan_trunk(const Tree& tree, const PackGrid& grid);

@@ -25,19 +25,32 @@ namespace copse {
 struct BitModel {
   std::uint16_t fast = 1u << 15, slow = 1u << 15;  // of 2^16
   std::uint8_t seen = 0;
+
+  void learn(bool bit);
 };
 
 // Numbers from 0 to 2^62: how many bits they have, the upper bits learnt for each such count.
 struct NumberModel {
   static constexpr int k_learnt = 3;  // bits below the highest one
   std::array<BitModel, 64> width;
-  std::array<std::array<BitModel, 1 << k_learnt>, 64> upper;
+  static constexpr std::size_t k_widths = 24;  // wider ones are one: they are rare
+  std::array<std::array<BitModel, 1 << k_learnt>, k_widths> upper;
+  std::array<BitModel, 1 << k_learnt>& upper_of(std::size_t bits) {
+    return upper[bits < k_widths ? bits : k_widths - 1];
+  }
 };
 
 struct SignedModel {
   NumberModel magnitude;
   std::array<BitModel, 3> sign;  // by the sign before
   int before = 0;
+};
+
+// What one stream of a coder took.
+struct StreamCost {
+  const char* name = "";
+  std::uint64_t values = 0;
+  double bits = 0;
 };
 
 inline constexpr std::uint64_t k_most_signed = std::uint64_t{1} << 40;
@@ -54,6 +67,15 @@ class RangeCoder {
   std::int64_t signed_number(SignedModel& model, std::int64_t value = 0);
   // `count` bits, 0 to 32, none of them more likely than the other.
   std::uint32_t plain(int count, std::uint32_t value = 0);
+
+  // A bit that is 0 with this probability, of 2^16.
+  bool bit_of(std::uint32_t zero_share, bool value);
+  // A magnitude, cut off at k_most_signed; a larger one is none that an encoder writes.
+  std::uint64_t limited(std::uint64_t magnitude);
+
+  // Encoding: a value of this stream follows, whose bits are counted under its name.
+  void stream(const char* name);
+  const std::vector<StreamCost>& costs() const { return costs_; }
 
   // Encoding: the bytes so far. To be called once.
   std::vector<std::uint8_t> finish();
@@ -79,6 +101,8 @@ class RangeCoder {
   std::uint64_t pending_ = 0;
   bool first_ = true;
   std::vector<std::uint8_t> out_;
+  std::vector<StreamCost> costs_;
+  std::size_t stream_ = 0;
 };
 
 }  // namespace copse

@@ -49,6 +49,7 @@ class GroupCoder {
   std::string run() {
     if (c_.decoding()) g_.centres.resize(head_.counts.groups), g_.nodes.resize(head_.counts.group_nodes);
     std::size_t leaf = 0;
+    c_.stream("groups");
     for (std::size_t g = 0; g < g_.centres.size(); ++g) {
       Grid3 sum{};
       for (std::uint32_t i = 0; i < leaves_.group_sizes[g]; ++i, ++leaf)
@@ -192,7 +193,7 @@ std::vector<std::uint32_t> leaf_order(const Tree& tree, std::span<const std::uin
 
 std::string code(RangeCoder& coder, PackPlan& plan, const Head& head) {
   if (std::string wrong = code_trunk(coder, plan.trunk, head); !wrong.empty()) return wrong;
-  if (std::string wrong = code_leaves(coder, plan.leaves, head); !wrong.empty()) return wrong;
+  if (std::string wrong = code_leaves(coder, plan.leaves, plan.trunk, head); !wrong.empty()) return wrong;
   return GroupCoder(coder, plan.groups, plan.leaves, head).run();
 }
 
@@ -221,6 +222,7 @@ Result<PackedTree> written(PackPlan plan, const Head& head, const Tree& like) {
     return fail(Fault::bug, "", "a packed tree that does not read: " + wrong, "report this");
   out.bytes.resize(k_pack_header);
   put(std::span(out.bytes), 0, plan.grid.position), put(std::span(out.bytes), 4, plan.grid.texcoord);
+  out.streams = coder.costs();
   const std::vector<std::uint8_t> coded = coder.finish();
   out.bytes.insert(out.bytes.end(), coded.begin(), coded.end());
   out.trunk_error = plan.trunk.largest_error * plan.grid.step();
@@ -257,7 +259,7 @@ Result<PackedTree> pack_tree(const Tree& tree, const PackOptions& options) {
   plan.trunk = plan_trunk(tree, plan.grid);
   std::vector<std::uint32_t> rank(tree.leaf_count());
   std::iota(rank.begin(), rank.end(), 0u);
-  plan.leaves = plan_leaves(tree, plan.grid, leaf_order(tree, rank));
+  plan.leaves = plan_leaves(tree, plan.grid, plan.trunk, leaf_order(tree, rank));
   plan.groups = plan_groups(tree, plan.grid);
   return written(std::move(plan), head_of(tree), tree);
 }
@@ -324,7 +326,7 @@ Result<void> put_packed(ContainerWriter& writer, const PackedTree& packed) {
   if (auto done = writer.put("HEAD", k_tree_section_version, 1, encode_head(head)); !done) return done;
   for_each_array(packed.tree, head,
                  [&](std::string_view name, const auto&, std::uint64_t, Presence) { writer.remove(name); });
-  return writer.put("PACK", k_tree_section_version, 1, packed.bytes);
+  return writer.put("PACK", k_pack_version, 1, packed.bytes);
 }
 
 Result<Container> unpacked(const Container& file) {
@@ -332,7 +334,7 @@ Result<Container> unpacked(const Container& file) {
   if (!section) return file;
   const SectionInfo *head_section = file.find("HEAD"), *records = file.find("MATL"),
                     *names = file.find("MNAM");
-  if (section->version != k_tree_section_version)
+  if (section->version != k_pack_version)
     return file.refuse_section(*section, 0,
                                fmt::format("version {} is unknown to this program", section->version));
   if (!head_section)

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "lib/formats/container/container.h"
+#include "lib/formats/packing/range_coder.h"
 #include "lib/formats/result.h"
 #include "lib/formats/tree/tree.h"
 #include "lib/formats/tree/tree_header.h"
@@ -19,6 +20,8 @@
 #include <vector>
 
 namespace copse {
+
+inline constexpr std::uint32_t k_pack_version = 2;
 
 struct PackOptions {
   int position_bits = 14;  // of the longest side of the box, about; 8 to 20
@@ -35,6 +38,7 @@ struct PackedTree {
   Tree tree;  // as it will be read
   // The largest distance of a vertex from where it was, metres.
   double trunk_error = 0, leaf_error = 0;
+  std::vector<StreamCost> streams;       // of `bytes`
   std::shared_ptr<const PackPlan> plan;  // of `bytes`; for renumbered()
 };
 
