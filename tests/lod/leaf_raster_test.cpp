@@ -114,5 +114,30 @@ TEST(LeafRaster, AnEyeSeesWhatItsViewDoes) {
   }
 }
 
+TEST(LeafRaster, ReadsAMaskAsTheMaskDoesWhereverItIsAsked) {
+  Random draw(3);
+  AlphaMask mask{7, 5, {}};
+  for (int i = 0; i < 35; ++i) mask.opaque.push_back(draw.chance(0.5) ? 1 : 0);
+  for (int i = 0; i < 4000; ++i) {
+    const auto u = static_cast<float>(draw.uniform(-2, 3)), v = static_cast<float>(draw.uniform(-2, 3));
+    EXPECT_EQ(leaf_raster::passes(mask, u, v), mask.passes(u, v)) << u << ' ' << v;
+  }
+  for (const float u : {0.0f, 1.0f, -1.0f, 0.99999994f, 1e-30f, -1e-30f})
+    for (const float v : {0.0f, 1.0f, -1.0f, 0.99999994f, 1e-30f, -1e-30f})
+      EXPECT_EQ(leaf_raster::passes(mask, u, v), mask.passes(u, v)) << u << ' ' << v;
+  EXPECT_TRUE(leaf_raster::passes(AlphaMask{}, 0.5f, 0.5f));
+}
+
+TEST(LeafRaster, AsksOnlyForPixelsThatAreWanted) {
+  const std::array<Float3, 3> t{{{1, 1, 0}, {30, 2, 0}, {5, 20, 0}}};
+  Pixels odd;
+  for_each_leaf_pixel(
+      t, {}, nullptr, k_width, k_height, [&](std::size_t p, float) { ++odd[p]; },
+      [](std::size_t p) { return p % 2 == 1; });
+  Pixels all = drawn(t);
+  std::erase_if(all, [](const auto& p) { return p.first % 2 == 0; });
+  EXPECT_EQ(odd, all);
+}
+
 }  // namespace
 }  // namespace copse

@@ -17,6 +17,7 @@ constexpr std::size_t k_pieces = 16;  // more a triangle that is drawn, until ha
 constexpr std::size_t k_least_pieces = 8192;
 constexpr std::size_t k_tried = 4;  // elements of a step that are asked before all others
 constexpr double k_loose = 1.1;  // how much farther than the nearest triangle one may be that is taken for it
+constexpr double k_close = 0.3;  // of the error: what is so near needs no nearer one to be looked for
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
 // A triangle or a part of one.
@@ -394,13 +395,13 @@ class HausdorffErrors {
     const Piece piece = todo_.back();
     todo_.pop_back();
     const Double3 centre = middle(piece);
-    const double radius = radius_about(centre, piece), left = std::max(enough_ - radius, 0.0);
-    const TriangleTree::Found found = tree.nearest(centre, square(left), k_infinite, counts);
+    const double radius = radius_about(centre, piece), stop = std::max(enough_ - radius, k_close * enough_);
+    const TriangleTree::Found found = tree.nearest(centre, square(stop), k_infinite, counts);
     if (found.triangle == k_none) return k_none;
     const double apart = std::sqrt(found.square);
     const std::uint32_t near = tree.element(found.triangle);
     if (apart + radius <= enough_) return near;  // it may be any that is so near: it says no more
-    raise(apart / k_loose);
+    if (apart > stop) raise(apart / k_loose);    // else there may be nearer ones
     if (apart + radius <= enough_) return near;
     const double farthest = square_farthest(piece, tree.piece(found.triangle));
     if (farthest <= square(enough_)) return near;

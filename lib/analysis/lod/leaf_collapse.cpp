@@ -34,6 +34,7 @@ constexpr std::size_t k_many_leaves = 2000;         // of fewer each matters mor
 constexpr double k_too_much = 1.08;                 // coverage at which closed forms end,
 constexpr int k_check_views = 2;                    // seen from so many sides
 constexpr std::uint64_t k_check_turn = 1u << 20;
+constexpr double k_full = 0.25;     // of the merges of a round, where none fits
 constexpr double k_doubt = 8;       // pixels that the field's word counts before any picture is drawn
 constexpr double k_margin = 0.022;  // of the crown's width, out of its hull
 
@@ -315,6 +316,7 @@ class Collapse {
     }
     weights_.room = room(counts);
     weights_.holds = [&](std::uint32_t i) { return held(i); };
+    if (full_up_) weights_.cores = 0;
     // Of very many leaves more at a time: each of them matters less.
     const double most = effort_.round * std::clamp(std::sqrt(double(alive_.size()) / 1e4), 1.0, 2.0);
     weights_.most = std::max<std::size_t>(1, std::size_t(most * double(alive_.size())));
@@ -337,7 +339,9 @@ class Collapse {
     // What does not fit waits: it may fit with another.
     const auto late =
         std::stable_partition(merges.begin(), merges.end(), [](const Merge& m) { return m.fits; });
-    merges.erase(std::max(late, merges.begin() + 1), merges.end());
+    full_up_ = late == merges.begin();
+    const auto some = static_cast<std::ptrdiff_t>(std::max<double>(1, k_full * double(merges.size())));
+    merges.erase(late != merges.begin() ? late : merges.begin() + some, merges.end());
     for (Merge& m : merges) apply(m);
     std::erase(alive_, k_none);
     elements_.show_at(alive_.size() == 1 ? 0 : share() * double(full_.triangles.size()));
@@ -562,8 +566,8 @@ class Collapse {
 
   // What fits nowhere is cut to what does.
   void fit(std::span<Double3> corners) const {
-    constexpr double k_cut = 0.9;
-    for (int tries = 0; tries < 16 && !inside(corners); ++tries) {
+    constexpr double k_cut = 0.96;
+    for (int tries = 0; tries < 40 && !inside(corners); ++tries) {
       Double3 centre{};
       for (const Double3& c : corners) centre += c / double(corners.size());
       for (Double3& c : corners) c = centre + (c - centre) * k_cut;
@@ -633,6 +637,7 @@ class Collapse {
   double area_ = 0;  // m², of all leaves
   double asked_ = 0, mean_area_ = 0, hidden_share_ = -1;
   std::uint64_t turns_ = 0;
+  bool full_up_ = false;  // no leaf fits any larger: none takes more from everywhere
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> gone_;
   std::vector<std::uint32_t> alive_;

@@ -163,8 +163,8 @@ class Layers {
         continue;
       if (mask != nullptr) {
         const float u = 1 - v - w;
-        if (!mask->passes(u * texcoords[0].x + v * texcoords[1].x + w * texcoords[2].x,
-                          u * texcoords[0].y + v * texcoords[1].y + w * texcoords[2].y))
+        if (!leaf_raster::passes(*mask, u * texcoords[0].x + v * texcoords[1].x + w * texcoords[2].x,
+                                 u * texcoords[0].y + v * texcoords[1].y + w * texcoords[2].y))
           continue;
       }
       const auto pixel = static_cast<std::uint32_t>(static_cast<int>(y) * eye.width + static_cast<int>(x));

@@ -67,13 +67,28 @@ struct Edge {
   }
 };
 
+// What the mask says, most of which needs no wrapping.
+inline bool passes(const AlphaMask& mask, float u, float v) {
+  const double x = u, y = 1 - double(v);
+  if (!(x >= 0 && x < 1 && y >= 0 && y < 1) || mask.opaque.empty()) return mask.passes(u, v);
+  const int column = std::min(static_cast<int>(x * mask.width), mask.width - 1),
+            row = std::min(static_cast<int>(y * mask.height), mask.height - 1);
+  return mask.opaque[static_cast<std::size_t>(row) * static_cast<std::size_t>(mask.width) +
+                     static_cast<std::size_t>(column)] != 0;
+}
+
+struct All {
+  bool operator()(std::size_t) const { return true; }
+};
+
 }  // namespace leaf_raster
 
 // Calls see(pixel, depth) for every pixel centre on the triangle that the mask lets through (null: all), row
 // by row. Corners as LeafEye projects them; depth grows toward the viewer. Cost: rows and pixels covered.
-template <class See>
+// `wanted`: pixels that are asked for at all.
+template <class See, class Wanted = leaf_raster::All>
 void for_each_leaf_pixel(const std::array<Float3, 3>& corners, const std::array<Float2, 3>& texcoords,
-                         const AlphaMask* mask, int width, int height, See&& see) {
+                         const AlphaMask* mask, int width, int height, See&& see, const Wanted& wanted = {}) {
   const auto& [a, b, c] = corners;
   const Float3 p = b - a, q = c - a;
   const float area = p.x * q.y - p.y * q.x;
@@ -94,10 +109,11 @@ void for_each_leaf_pixel(const std::array<Float3, 3>& corners, const std::array<
     for (int x = columns.first; x <= columns.last; ++x) {
       const float v = (of_b + static_cast<float>(x) * qy) * per,
                   w = (of_c - static_cast<float>(x) * py) * per;
+      if (!wanted(row + static_cast<std::size_t>(x))) continue;
       if (mask != nullptr) {
         const float u = 1 - v - w;
-        if (!mask->passes(u * texcoords[0].x + v * texcoords[1].x + w * texcoords[2].x,
-                          u * texcoords[0].y + v * texcoords[1].y + w * texcoords[2].y))
+        if (!leaf_raster::passes(*mask, u * texcoords[0].x + v * texcoords[1].x + w * texcoords[2].x,
+                                 u * texcoords[0].y + v * texcoords[1].y + w * texcoords[2].y))
           continue;
       }
       see(row + static_cast<std::size_t>(x), a.z + v * p.z + w * q.z);

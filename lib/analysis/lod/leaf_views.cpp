@@ -121,11 +121,11 @@ LeafViews::Scene LeafViews::scene(std::span<const ViewedLeaf> leaves) const {
   return out;
 }
 
-template <class See>
-void LeafViews::draw(const Local& t, std::size_t view, See&& see) const {
+template <class See, class Wanted>
+void LeafViews::draw(const Local& t, std::size_t view, See&& see, const Wanted& wanted) const {
   const LeafEye& eye = eyes_[view];
   for_each_leaf_pixel({eye.project(t.corners[0]), eye.project(t.corners[1]), eye.project(t.corners[2])},
-                      t.texcoords, t.mask, eye.width, eye.height, see);
+                      t.texcoords, t.mask, eye.width, eye.height, see, wanted);
 }
 
 template <class See>
@@ -150,8 +150,9 @@ void LeafViews::sample(const ViewedLeaf& leaf, See&& see) const {
         const float x = from.x + s * along.x + r * across.x, y = from.y + s * along.y + r * across.y;
         if (!(x >= 0 && y >= 0 && x < static_cast<float>(eye.width) && y < static_cast<float>(eye.height)))
           continue;
-        if (mask != nullptr && !mask->passes(uv[0].x + s * (uv[1].x - uv[0].x) + r * (uv[2].x - uv[0].x),
-                                             uv[0].y + s * (uv[1].y - uv[0].y) + r * (uv[2].y - uv[0].y)))
+        if (mask != nullptr &&
+            !leaf_raster::passes(*mask, uv[0].x + s * (uv[1].x - uv[0].x) + r * (uv[2].x - uv[0].x),
+                                 uv[0].y + s * (uv[1].y - uv[0].y) + r * (uv[2].y - uv[0].y)))
           continue;
         const std::size_t at_pixel =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(eye.width) + static_cast<std::size_t>(x);
@@ -166,7 +167,9 @@ void LeafViews::set_source(std::span<const ViewedLeaf> leaves) {
   source_.assign(first_.back(), 0);
   tbb::parallel_for(std::size_t{0}, eyes_.size(), [&](std::size_t v) {
     const auto picture = of_view(source_, v);
-    for (const Local& t : drawn.triangles) draw(t, v, [&](std::size_t p, float) { picture[p] = 1; });
+    const auto see = [&](std::size_t p, float) { picture[p] = 1; };
+    const auto wanted = [&](std::size_t p) { return picture[p] == 0; };
+    for (const Local& t : drawn.triangles) draw(t, v, see, wanted);
   });
   source_count_ = 0;
   for (const std::uint8_t covered : source_) source_count_ += covered;

@@ -130,8 +130,8 @@ class LeafViews {
     const AlphaMask* mask;
   };
   Local local(const ViewedLeaf& leaf, std::size_t triangle) const;
-  template <class See>
-  void draw(const Local& triangle, std::size_t view, See&& see) const;
+  template <class See, class Wanted = leaf_raster::All>
+  void draw(const Local& triangle, std::size_t view, See&& see, const Wanted& wanted = {}) const;
   // Calls see(pixel, depth, weight) for some points of the leaf in all views; a weight is in pixels.
   template <class See>
   void sample(const ViewedLeaf& leaf, See&& see) const;
