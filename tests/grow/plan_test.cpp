@@ -13,6 +13,7 @@ class PlanOf : public testing::TestWithParam<std::string> {};
 
 TEST_P(PlanOf, CountsTrianglesBeforeThereAreAny) {
   std::vector<std::string> lists{"none", "artist", "extruded,vary-k,seams,capped-ngon,fronds,quads",
+                                 "inset-faces,vary-k,seams,capped-ngon",
                                  "welded-forks,vary-k,collapsed-rings,end-to-end,crossed-cards"};
   for (const BreakInfo& info : break_table()) lists.emplace_back(info.name);
   for (const std::string& list : lists) {

@@ -104,7 +104,7 @@ TEST(TrunkBreaks, WeldedForksAreOneSurfaceWithVerticesThatNoRingOwns) {
 }
 
 TEST(TrunkBreaks, ExtrudedBranchesAreCutIntoTwoRingsOfOneSurface) {
-  for (const char* list : {"extruded", "extruded,vary-k"}) {
+  for (const char* list : {"extruded", "extruded,vary-k", "extruded-faces", "inset-faces,vary-k"}) {
     const Grown tree = small_tree("oak", list, 25000);
     expect_one_surface(tree, list);
     for (const TruthBranch& b : tree.truth.branches)

@@ -183,8 +183,8 @@ TEST(Treegrow, TruthsPassTheScorersSelfTest) {
   }
   const TemporaryFolder folder;
   std::vector<std::string> command{"/usr/bin/python3", scorer, "--selftest"};
-  for (const char* list :
-       {"none", "artist", "extruded,rough,end-to-end-turned", "welded-forks,collapsed-rings,bent-cards"}) {
+  for (const char* list : {"none", "artist", "extruded,rough,end-to-end-turned", "inset-faces,capped-ngon",
+                           "welded-forks,collapsed-rings,bent-cards"}) {
     const std::string name = folder.file(std::to_string(command.size()));
     const Outcome run = run_process({"treegrow", "cherry", "-o", name + ".ply", "--truth", name + ".json.gz",
                                      "--break", list, "--no-textures", "--triangles", "9000"});

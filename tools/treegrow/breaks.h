@@ -18,6 +18,8 @@ enum class Break : std::uint8_t {
   laid_against,
   welded_forks,
   extruded,
+  extruded_faces,
+  inset_faces,
   // how a tube ends (strict: at an open ring)
   open_ends,
   capped_fan,
@@ -85,6 +87,9 @@ class Breaks {
  public:
   bool has(Break id) const { return set_[static_cast<std::size_t>(id)]; }
   void add(Break id);  // takes the others of its group out
+  // Whether branches are pulled out of their parents' surface, and whether out of single faces of it.
+  bool pulls_faces() const { return has(Break::extruded_faces) || has(Break::inset_faces); }
+  bool pulls_out() const { return has(Break::extruded) || pulls_faces(); }
   bool none() const { return set_.none(); }
   std::vector<std::string> names() const;
   friend bool operator==(const Breaks&, const Breaks&) = default;

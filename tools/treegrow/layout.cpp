@@ -78,6 +78,7 @@ void LayoutMaker::sort_children() {
 std::uint32_t LayoutMaker::sides(std::size_t i) const {
   const Stem& stem = skeleton_.stems[i];
   if (grass()) return 2;
+  if (breaks_.pulls_faces() && stem.kind != StemKind::root) return 4;
   const bool vary = breaks_.has(Break::vary_k);
   double k = (vary ? species_.levels[stem.level].sides : species_.ring_size) * detail_.sides;
   k = std::max(3.0, std::round(k));
@@ -223,7 +224,7 @@ void LayoutMaker::lay_stem(std::size_t i) {
   own.k = sides(i);
   std::vector<double> rings = uniform(stem);
   const auto children = std::span(child_list_).subspan(children_[i], children_[i + 1] - children_[i]);
-  if (breaks_.has(Break::extruded)) {
+  if (breaks_.pulls_out()) {
     open_patches(rings, stem, children);
   } else if (free()) {
     std::vector<std::uint32_t> forks;  // only an arm of a fork needs a ring where it begins
@@ -252,8 +253,9 @@ std::uint64_t LayoutMaker::count_stem(std::size_t i) const {
   if (stem.kind != StemKind::root && !free()) {
     if (breaks_.has(Break::welded_forks)) {
       triangles += 2 * k;
-    } else if (breaks_.has(Break::extruded)) {
+    } else if (breaks_.pulls_out()) {
       triangles += k + 2;  // a band of 2 k, less a patch of k / 2 - 1 quads
+      if (breaks_.has(Break::inset_faces)) triangles += 2 * k;
     } else {
       triangles += k + layout_.stems[stem.parent].k;
     }

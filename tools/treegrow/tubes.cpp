@@ -14,6 +14,7 @@ constexpr std::uint64_t k_rough_key = 20, k_phase_key = 21, k_loose_key = 22;
 constexpr std::size_t k_tube_segments = 3;  // of a tube that is laid end to end with others
 constexpr double k_rough = 0.12;            // of the radius
 constexpr double k_loose = 1e-6;            // of the height
+constexpr double k_inset = 0.7;             // of a face that is inset
 constexpr double k_point = 2;               // how far a pointed tip runs out, in radii
 
 // Where a ring's loop is in the mesh.
@@ -39,7 +40,7 @@ class TubeBuilder {
   const StemLayout& own() const { return layout_.stems[current_]; }
   std::size_t global(std::size_t ring) const { return own().first + ring; }
   bool free() const { return breaks_.has(Break::free_tubes) || breaks_.has(Break::laid_against); }
-  bool opens() const { return breaks_.has(Break::welded_forks) || breaks_.has(Break::extruded); }
+  bool opens() const { return breaks_.has(Break::welded_forks) || breaks_.pulls_out(); }
   bool cut_after(std::size_t ring) const;
 
   void build_stem();
@@ -47,6 +48,7 @@ class TubeBuilder {
   void place_points();
   Loop build_start(std::uint32_t& truth_ring);
   Loop base_loop() const;
+  Loop inset(const Loop& base);
   Double3 ring_offset(std::size_t ring, double angle) const;
   Double3 ring_normal(std::size_t ring, double angle) const;
   Loop loop_of(const LoopPlace& place, std::uint32_t k) const;
@@ -337,6 +339,23 @@ Loop TubeBuilder::base_loop() const {
   return loop_of(loops_[ring], parent.k);
 }
 
+// A smaller copy of a face in its middle, with the frame that is left of the face.
+Loop TubeBuilder::inset(const Loop& base) {
+  std::vector<Double3> corners;
+  Double3 middle;
+  for (std::size_t c = 0; c < base.columns(); ++c) {
+    corners.push_back(surface_.placement().undo(surface_.position(base.vertex[c])));
+    middle += corners[c] / static_cast<double>(base.columns());
+  }
+  const Double3 out = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
+  Loop ring;
+  for (const Double3& p : corners)
+    ring.vertex.push_back(surface_.vertex(middle + (p - middle) * k_inset, out));
+  finish_base(ring);
+  add_band(surface_, base, ring);
+  return ring;
+}
+
 // The two rings of the parent that a free tube's first ring lies between, and the nearer of them.
 std::uint32_t TubeBuilder::attach_free(TruthBranch& branch) const {
   const StemLayout& parent = layout_.stems[stem().parent];
@@ -365,7 +384,7 @@ std::uint32_t TubeBuilder::attach(TruthBranch& branch) {
   if (free()) return attach_free(branch);
   const std::size_t ring = layout_.stems[stem().parent].first + own().join;
   branch.attach[0] = branch.attach[1] = truth_ring_[ring];
-  if (breaks_.has(Break::extruded)) branch.attach[1] = truth_ring_[ring + 1];
+  if (breaks_.pulls_out()) branch.attach[1] = truth_ring_[ring + 1];
   return branch.attach[0];
 }
 
@@ -383,7 +402,11 @@ Loop TubeBuilder::build_start(std::uint32_t& truth_ring) {
     truth_ring = add_truth(loop, parent);
     return loop;
   }
-  const Loop base = base_loop();
+  Loop base = base_loop();
+  if (breaks_.has(Break::inset_faces)) {
+    base = inset(base);
+    truth_ring = add_truth(base, parent);
+  }
   phase_ = best_phase(surface_, base, points_[0].centre, points_[0].side, points_[0].up);
   Loop loop = add_ring(0);
   if (base.columns() == loop.columns()) {
@@ -391,7 +414,7 @@ Loop TubeBuilder::build_start(std::uint32_t& truth_ring) {
   } else {
     add_zipper(surface_, base, loop);
   }
-  truth_ring = add_truth(loop, parent);
+  truth_ring = add_truth(loop, breaks_.has(Break::inset_faces) ? truth_ring : parent);
   return loop;
 }
 
@@ -417,7 +440,7 @@ void TubeBuilder::build_stem() {
     if (opener != k_none && breaks_.has(Break::welded_forks)) below = open_saddle(r - 1, below, opener);
     Loop loop = add_ring(r);
     truth_ring = add_truth(loop, truth_ring);
-    if (opener != k_none && breaks_.has(Break::extruded)) {
+    if (opener != k_none && breaks_.pulls_out()) {
       band_with_patch(r - 1, below, loop, opener);
     } else {
       add_band(surface_, below, loop);
