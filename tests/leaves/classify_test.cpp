@@ -382,9 +382,8 @@ TEST(Classify, AMeshThatIsAllNamedLeavesMayStillHaveATrunk) {
   EXPECT_EQ(c.trunk_triangles, 128u);
 }
 
-TEST(Classify, ANameThatAllBearTakesNoBoughFromItsTrunk) {
-  Builder b;
-  b.part("LeafyOak");
+// A tree of boughs, twigs and twelve cards.
+void add_oak(Builder& b) {
   b.tube(line({0, 0, 0}, {0, 6, 0}, 9), 0.2, 8);
   for (int i = 0; i < 12; ++i) {
     const Double3 foot{0, 2 + 0.3 * i, 0}, tip = foot + Double3{std::cos(i), 0.4, std::sin(i)};
@@ -392,6 +391,68 @@ TEST(Classify, ANameThatAllBearTakesNoBoughFromItsTrunk) {
     b.tube(line((foot + tip) / 2.0, tip + Double3{0, 0.4, 0}, 3), 0.02, 4);
     b.card(tip, {0.1, 0, 0}, {0, 0.1, 0.02});
   }
+}
+
+TEST(Classify, ANameThatSaysLeafOfAWholeTreeTakesNoTrunkBesideAStone) {
+  Builder b;
+  b.part("LeafyOak");
+  add_oak(b);
+  const std::size_t alone = classified(b.mesh).trunk_triangles;
+  ASSERT_GT(alone, 0u);
+  b.part("Object.001");
+  b.ball({2, 0.2, 0}, 0.3, 0.2);
+  const Classification c = classified(b.mesh);
+  EXPECT_EQ(c.trunk_triangles, alone);
+  EXPECT_EQ(c.components[0].kind, PartClass::trunk);
+}
+
+TEST(Classify, ANameThatSaysLeafBindsWhereTheOtherPartIsTheTrunk) {
+  Builder b;
+  b.part("Leaves");
+  for (int i = 0; i < 9; ++i)
+    b.tube(line({0, 3 + 0.3 * i, 0}, {std::cos(i), 3.4 + 0.3 * i, std::sin(i)}, 5), 0.05, 6);
+  b.part("Object.001");
+  b.tube(line({0, 0, 0}, {0, 6, 0}, 9), 0.2, 8);
+  const Classification c = classified(b.mesh);
+  EXPECT_EQ(c.trunk_triangles, 128u);
+}
+
+TEST(Classify, AShortTubeThatIsThinByChanceIsATwigAmongTwigsOfAsManyTriangles) {
+  for (const int twigs : {2, 3}) {
+    Builder b;
+    b.part("a");
+    b.tube(line({0, 0, 0}, {0, 6, 0}, 9), 0.2, 8);
+    for (int i = 0; i < twigs; ++i) b.tube(line({0.2, 3.0 + i, 0}, {1, 3.5 + i, 0}, 2), 0.02, 4);
+    std::vector<std::uint32_t> low, high;
+    for (const Double3& p : {Double3{0, 0, 0}, {0.2, 0, 0}, {0.2, 0, 0.02}, {0, 0, 0.02}}) {
+      low.push_back(b.point(p + Double3{0.3, 5, 0}));
+      high.push_back(b.point(p + Double3{0.3, 5.2, 0}));
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t n = (i + 1) % 4;
+      b.triangle(low[i], low[n], high[n]), b.triangle(low[i], high[n], high[i]);
+    }
+    const Classification c = classified(b.mesh);
+    EXPECT_EQ(c.components.back().kind, twigs == 3 ? PartClass::trunk : PartClass::leaf)
+        << c.components.back().reason;
+  }
+}
+
+TEST(Classify, BlobsOfOneMakeThatOverlapHighUpAreFoliage) {
+  Builder b;
+  b.part("a");
+  b.tube(line({0, 0, 0}, {0, 6, 0}, 9), 0.2, 8);
+  b.ball({0, 5, 0}, 0.5, 0.5);
+  b.ball({0, 5.6, 0}, 0.8, 0.8);
+  const Classification c = classified(b.mesh);
+  EXPECT_EQ(c.trunk_triangles, 128u);
+  EXPECT_EQ(c.leaf_count, 2u);
+}
+
+TEST(Classify, ANameThatAllBearTakesNoBoughFromItsTrunk) {
+  Builder b;
+  b.part("LeafyOak");
+  add_oak(b);
   const Classification named = classified(b.mesh);
   b.mesh.parts.back().object = "tree";
   EXPECT_EQ(named.trunk_triangles, classified(b.mesh).trunk_triangles);

@@ -118,6 +118,33 @@ Classification classify_pieces(const Mesh& mesh, Indices& welded, bool refine,
   return out;
 }
 
+// Whether a piece of trunk reaches a quarter of the mesh's height: something for leaves to hang on.
+bool has_trunk_of_size(const Mesh& mesh, const Classification& c) {
+  constexpr double k_share = 0.25;
+  std::vector<DoubleBox> boxes(c.components.size());
+  DoubleBox all;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      all.grow(mesh.positions[v]);
+      boxes[c.component_of[t]].grow(mesh.positions[v]);
+    }
+  }
+  for (std::size_t p = 0; p < boxes.size(); ++p) {
+    const bool is_trunk = c.components[p].kind == PartClass::trunk && !boxes[p].empty();
+    if (is_trunk && boxes[p].extent().y >= k_share * all.extent().y) return true;
+  }
+  return false;
+}
+
+// A name that says leaf of a whole tree ("LeafyOak") beside something without a say (a stone) leaves no
+// trunk: then names bind as they do where all bear them, and what they said stands unless that finds a trunk.
+void look_for_trunk_in_leaves(const Mesh& mesh, Indices& welded, bool refine,
+                              std::vector<PartVerdict>& verdicts, Classification& found) {
+  if (has_trunk_of_size(mesh, found) || !loosen_leaf_names(verdicts)) return;
+  Classification again = classify_pieces(mesh, welded, refine, verdicts);
+  if (has_trunk_of_size(mesh, again)) found = std::move(again);
+}
+
 Result<Classification> check_and_classify(const Mesh& mesh, Indices welded, bool refine,
                                           const ClassifyOptions& options) {
   constexpr std::size_t k_most_triangles = 0xffffffffu / 3;
@@ -127,7 +154,10 @@ Result<Classification> check_and_classify(const Mesh& mesh, Indices welded, bool
   }
   Result<std::vector<PartVerdict>> verdicts = part_verdicts(mesh, options);
   if (!verdicts) return std::unexpected(std::move(verdicts.error()));
-  return classify_pieces(mesh, welded, refine, *verdicts);
+  Classification found = classify_pieces(mesh, welded, refine, *verdicts);
+  if (options.trunk_patterns.empty() && options.leaf_patterns.empty())
+    look_for_trunk_in_leaves(mesh, welded, refine, *verdicts, found);
+  return found;
 }
 
 }  // namespace

@@ -128,4 +128,17 @@ Result<std::vector<PartVerdict>> part_verdicts(const Mesh& mesh, const ClassifyO
   return verdicts;
 }
 
+bool loosen_leaf_names(std::vector<PartVerdict>& verdicts) {
+  bool any = false;
+  for (PartVerdict& v : verdicts) {
+    if (v.kind == NameClass::trunk) return false;
+    any |= v.kind == NameClass::leaf && v.binding == Binding::firm;
+  }
+  if (!any) return false;
+  for (PartVerdict& v : verdicts) {
+    if (v.kind == NameClass::leaf && v.binding == Binding::firm) v.binding = Binding::whole;
+  }
+  return true;
+}
+
 }  // namespace copse

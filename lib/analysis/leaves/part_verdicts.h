@@ -32,4 +32,8 @@ struct PartVerdict {
 // first that says anything. Errors: see classify().
 Result<std::vector<PartVerdict>> part_verdicts(const Mesh& mesh, const ClassifyOptions& options);
 
+// Lets words for leaves bind no further than if the whole mesh bore them; whether there were any. For
+// verdicts of names alone, none of which says trunk.
+bool loosen_leaf_names(std::vector<PartVerdict>& verdicts);
+
 }  // namespace copse

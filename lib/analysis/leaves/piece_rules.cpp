@@ -20,6 +20,7 @@ enum class Finding : std::uint8_t {
   blade,         // trunk: grass moves from its root, each blade a strip of its own (thesis 5.6)
   stem,          // trunk
   continued,     // trunk: a blob or sheet that a stem goes on from, end to end
+  squat,         // trunk: a plate among many stems of as many triangles
   needle,        // leaf
   carried_stem,  // leaf: a slender crown
   named_stem,    // leaf: in a mesh that is all named leaf, a stem that hangs on no trunk
@@ -41,6 +42,7 @@ bool is_trunk(Finding f, NameClass named) {
     case Finding::blade:
     case Finding::stem:
     case Finding::continued:
+    case Finding::squat:
     case Finding::named_blob:
     case Finding::brown_blob:
     case Finding::pillar:
@@ -59,6 +61,7 @@ constexpr std::uint32_t k_piled = 32;     // blobs with so many alike are foliag
 constexpr std::uint32_t k_needles = 100;  // alike spikes
 constexpr std::uint32_t k_needle_triangles = 12;
 constexpr double k_needle_size = 0.03;      // of the mesh's height
+constexpr std::uint32_t k_squat = 3;        // stems for each plate of as many triangles that is one of them
 constexpr double k_trunk_size = 0.25;       // of the mesh's height: what a trunk has at least
 constexpr double k_on_ground = 0.1;         // of the mesh's height: roots and slopes
 constexpr double k_ground_thickness = 0.1;  // of the mesh's height
@@ -100,6 +103,7 @@ class Rules {
     for (const PlacedPiece& placed : scan_.placed()) look_at_place(placed);
     find_named_stems();
     find_continued();
+    find_squat();
     find_piles();
     find_stump();
     return std::move(found_);
@@ -261,6 +265,26 @@ class Rules {
     return shape_of(mesh_, welded_, scan_.pieces(), triangles).kind == ShapeKind::stem;
   }
 
+  // A last twig may be as short as it is wide, and thin by chance: where most things of as many triangles in
+  // its part are stems, it is one.
+  void find_squat() {
+    std::unordered_map<std::uint64_t, std::uint32_t> stems, plates;  // by part and triangles; looked up only
+    const auto key = [&](std::uint32_t p) { return std::uint64_t{scan_.part(p)} << 32 | triangle_count(p); };
+    const auto is_plate = [&](std::uint32_t p) {
+      return found_[p] == Finding::sheet && scan_.fact(p).solid && !scan_.fact(p).planar;
+    };
+    bool any = false;
+    for (std::uint32_t p = 0; p < found_.size(); ++p) any = any || is_plate(p);
+    if (!any) return;
+    for (std::uint32_t p = 0; p < found_.size(); ++p) {
+      if (is_plate(p)) ++plates[key(p)];
+      if (found_[p] == Finding::stem) ++stems[key(p)];
+    }
+    for (std::uint32_t p = 0; p < found_.size(); ++p) {
+      if (is_plate(p) && stems[key(p)] >= k_squat * plates[key(p)]) found_[p] = Finding::squat;
+    }
+  }
+
   // --- caps: a few triangles of another material that close a tube ---------------------------------------
 
   struct BorderEdge {
@@ -342,7 +366,12 @@ class Rules {
   }
   void judge_pair(const PlacedPiece& lower, bool carried, const PlacedPiece& upper) {
     const double share = width(lower.shape) / width(upper.shape);
-    if (found_[lower.piece] == Finding::blob && !carried && share <= k_narrower)
+    // Of blobs of one make the lower one carries the upper one only from the ground: up there both are
+    // foliage.
+    const bool alike = scan_.part(lower.piece) == scan_.part(upper.piece) &&
+                       triangle_count(lower.piece) == triangle_count(upper.piece);
+    const bool may_carry = !alike || stands_on_ground(lower.shape);
+    if (found_[lower.piece] == Finding::blob && !carried && may_carry && share <= k_narrower)
       found_[lower.piece] = Finding::pillar;
     const bool crown = found_[upper.piece] == Finding::stem && stands_on_ground(lower.shape);
     if (crown && !carried && share <= k_much_narrower) found_[upper.piece] = Finding::carried_stem;
@@ -424,6 +453,8 @@ std::string describe(Finding f, const PieceFact& fact, std::size_t n) {
       return counted("a blade", n) + " that stands on the ground";
     case Finding::stem:
       return counted("a stem", n) + ": long for its thickness";
+    case Finding::squat:
+      return counted("a short tube", n) + " among many longer ones";
     case Finding::needle:
       return counted("a spike", n) + ": a needle";
     case Finding::carried_stem:
