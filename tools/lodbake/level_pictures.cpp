@@ -52,19 +52,21 @@ std::vector<OrthographicView> LevelPictures::views(std::size_t size) const {
   return out;
 }
 
-double LevelPictures::error(const TriedLevel& level) const {
+double LevelPictures::error(const TriedLevel& level) {
   const double share = static_cast<double>(level.triangles) / std::max(full_, 1.0);
   const std::size_t size = share >= 0.25 ? 0 : share >= 0.05 ? 1 : 2;
-  DrawnMesh mesh = drawn_state(spectra_.trunk, level.trunk_steps);
-  append(mesh, drawn_elements(spectra_.leaves, level.leaves));
-  const std::vector<OrthographicView> sides = views(size);
-  std::vector<double> squares(source_[size].size());
+  if (source_[size].empty()) return 0;
+  // Levels become smaller; those that are tried for one knot have two sizes at most.
+  for (std::size_t larger = 0; larger + 1 < size; ++larger) pictures_[larger].reset();
+  if (!pictures_[size]) pictures_[size].emplace(spectra_, looks_, views(size));
+  const std::vector<Picture> pictures = pictures_[size]->draw(level.trunk_steps, level.leaves);
+  std::vector<double> squares(pictures.size());
   tbb::parallel_for(std::size_t{0}, squares.size(), [&](std::size_t i) {
-    const double e = picture_rmse(draw_picture(mesh, looks_, sides[i], 2), source_[size][i]);
+    const double e = picture_rmse(pictures[i], source_[size][i]);
     squares[i] = e * e;
   });
   const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
-  return sides.empty() ? 0 : std::sqrt(sum / static_cast<double>(sides.size()));
+  return std::sqrt(sum / static_cast<double>(squares.size()));
 }
 
 }  // namespace copse::lodbake

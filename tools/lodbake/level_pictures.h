@@ -2,11 +2,13 @@
 #pragma once
 
 #include "lib/analysis/lod/coupling.h"
+#include "lib/analysis/lod/spectrum_pictures.h"
 #include "lib/analysis/measure/drawn_mesh.h"
 #include "lib/analysis/measure/picture.h"
 #include "lib/formats/levels/spectrum.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace copse::lodbake {
@@ -20,7 +22,7 @@ class LevelPictures {
   // Keeps references to both, and to what `looks` refers to.
   LevelPictures(const LodSpectra& spectra, const Looks& looks);
   // Root mean square error of the pictures against full detail's.
-  double error(const TriedLevel& level) const;
+  double error(const TriedLevel& level);
 
  private:
   static constexpr std::array k_sizes{128, 96, 48};
@@ -31,6 +33,7 @@ class LevelPictures {
   double full_ = 0, radius_ = 0;
   Double3 centre_;
   std::array<std::vector<Picture>, k_sizes.size()> source_;
+  std::array<std::optional<SpectrumPictures>, k_sizes.size()> pictures_;
 };
 
 }  // namespace copse::lodbake

@@ -94,9 +94,13 @@ void for_each_sample(const ScreenTriangle& triangle, int width, int height, Want
   const Double3 &a = t[0].at, &b = t[1].at, &c = t[2].at;
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (area == 0 || !std::isfinite(area)) return;
+  // Most small triangles lie between the centres.
+  const auto rows = alpha_raster::centres(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), height);
+  if (rows.first > rows.last) return;
+  const auto all = alpha_raster::centres(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), width);
+  if (all.first > all.last) return;
   const double per_area = 1 / area;
   const alpha_raster::Edges edges(t);
-  const auto rows = alpha_raster::centres(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), height);
   for (int y = rows.first; y <= rows.last; ++y) {
     const double py = y + 0.5;
     const auto columns = edges.crossing(py, width);

@@ -27,29 +27,29 @@ Samples sample(const DrawnMesh& mesh, const Looks& looks, const OrthographicView
   return out;
 }
 
-Double3 normal_of(const DrawnMesh& mesh, const Triangle& t) {
-  if (!mesh.normals.empty()) {
-    const Double3 n =
-        to_double(mesh.normals[t[0]]) + to_double(mesh.normals[t[1]]) + to_double(mesh.normals[t[2]]);
-    if (dot(n, n) > 1e-6) return normalized(n);
-  }
-  const Double3 a = mesh.positions[t[0]];
-  return normalized(cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a));
-}
-
 Float3 shade(const DrawnMesh& mesh, const Looks& looks, std::uint32_t triangle) {
-  static const Double3 light = normalized({0.35, 0.8, 0.5});
-  const double lit = 0.5 + 0.5 * std::abs(dot(normal_of(mesh, mesh.triangles[triangle]), light));
-  Float3 base{0.8f, 0.8f, 0.8f};
-  if (const std::uint32_t m = mesh.material[triangle]; m < looks.materials.size()) {
-    const Material& material = looks.materials[m];
-    base = {material.diffuse.x * material.mean_colour.x, material.diffuse.y * material.mean_colour.y,
-            material.diffuse.z * material.mean_colour.z};
-  }
-  return base * static_cast<float>(lit);
+  const Triangle& t = mesh.triangles[triangle];
+  Double3 normals{};
+  if (!mesh.normals.empty())
+    for (const std::uint32_t v : t) normals += to_double(mesh.normals[v]);
+  const std::uint32_t m = mesh.material[triangle];
+  return shaded({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}, normals,
+                m < looks.materials.size() ? &looks.materials[m] : nullptr);
 }
 
 }  // namespace
+
+Float3 shaded(const std::array<Double3, 3>& corners, const Double3& normals, const Material* material) {
+  static const Double3 light = normalized({0.35, 0.8, 0.5});
+  const Double3 normal =
+      dot(normals, normals) > 1e-6 ? normals : cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double lit = 0.5 + 0.5 * std::abs(dot(normalized(normal), light));
+  Float3 base{0.8f, 0.8f, 0.8f};
+  if (material != nullptr)
+    base = {material->diffuse.x * material->mean_colour.x, material->diffuse.y * material->mean_colour.y,
+            material->diffuse.z * material->mean_colour.z};
+  return base * static_cast<float>(lit);
+}
 
 Picture draw_picture(const DrawnMesh& mesh, const Looks& looks, const OrthographicView& view, int samples) {
   OrthographicView fine = view;

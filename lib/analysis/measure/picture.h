@@ -3,6 +3,7 @@
 
 #include "lib/analysis/measure/alpha_raster.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct Picture {
 // around. Deterministic. Cost: samples covered, plus the picture.
 Picture draw_picture(const DrawnMesh& mesh, const Looks& looks, const OrthographicView& view,
                      int samples = 2);
+
+// What a triangle looks like there, linear. `normals`: the sum of its corners', 0 for flat shading.
+Float3 shaded(const std::array<Double3, 3>& corners, const Double3& normals, const Material* material);
 
 // The share of the picture that is covered, as draw_picture finds it, without the rest.
 double covered_pixels(const Picture& picture);
