@@ -23,6 +23,16 @@ bool ahead(const Double3& d) {
   return std::abs(d.y) > k_zero ? d.y > 0 : d.x > 0;
 }
 
+// One a pair of opposite directions.
+const std::vector<Double3>& axes() {
+  static const std::vector<Double3> all = [] {
+    std::vector<Double3> some = view_sphere(k_subdivisions).directions;
+    std::erase_if(some, [](const Double3& d) { return !ahead(d); });
+    return some;
+  }();
+  return all;
+}
+
 template <class Four>
 Four larger(const Four& a, const Four& b) {
   return a > b ? a : b;
@@ -52,8 +62,7 @@ void CrownHull::measure(std::span<const Double3> points) {
     for (int a = 0; a < 3; ++a) at[a].push_back(p[a] - low_[a]);
   std::array<double, k_axes> highest{}, lowest{};
   std::size_t axis = 0;
-  for (const Double3& d : view_sphere(k_subdivisions).directions) {
-    if (!ahead(d) || axis == k_axes) continue;
+  for (const Double3& d : axes()) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double along = at[0][i] * d.x + at[1][i] * d.y + at[2][i] * d.z;
@@ -176,7 +185,7 @@ void CrownHull::find_most(Reach& reach) {
 }
 
 Double3 CrownHull::way_back(std::span<const Double3> points, double margin) const {
-  if (!(width_ >= 0)) return {};
+  if (!(width_ >= 0) || (margin >= reach_ * width_ && within_rows(points))) return {};
   Reach reach;
   reach_of(points, reach);
   return moved_back(reach, margin);
@@ -203,9 +212,16 @@ Double3 CrownHull::moved_back(Reach& reach, double margin) const {
 
 double CrownHull::excess(std::span<const Double3> points) const {
   if (!(width_ >= 0)) return 0;
-  Reach reach;
-  reach_of(points, reach);
-  return std::max(0.0, double(reach.most) / per_width());
+  const double scale = per_width();
+  Four most = Four{} - k_far;
+  for (const Double3& p : points) {
+    const Float3 q = to_float((p - low_) * scale);
+    for (std::size_t k = 0; k < k_fours; ++k) {
+      const Four at = q.x * axes_[0][k] + q.y * axes_[1][k] + q.z * axes_[2][k];
+      most = larger(larger(at - highest_[k], lowest_[k] - at), most);
+    }
+  }
+  return std::max(0.0, double(largest_of(most)) / scale);
 }
 
 }  // namespace copse

@@ -166,19 +166,14 @@ class Surfaces {
 struct Quadric {
   Symmetric3 a;
   Double3 b{};
-  double c = 0, weight = 0;
+  double weight = 0;
 
   void add(const Double3& n, const Double3& on, double w) {
-    const double d = dot(n, on);
-    a.add(n, w), b += n * (d * w), c += d * d * w, weight += w;
+    a.add(n, w), b += n * (dot(n, on) * w), weight += w;
   }
   Quadric& operator+=(const Quadric& o) {
-    a += o.a, b += o.b, c += o.c, weight += o.weight;
+    a += o.a, b += o.b, weight += o.weight;
     return *this;
-  }
-  // Root of the mean of the squared distances.
-  double rms(const Double3& at) const {
-    return weight > 0 ? std::sqrt(std::max(a.along(at) - 2 * dot(b, at) + c, 0.0) / weight) : 0;
   }
   // Where the planes leave it open, near `at`.
   Double3 least(const Double3& at) const {
@@ -243,20 +238,14 @@ class Replay {
 
   SurfaceCollapse run(const EdgeCollapses& collapses) {
     for (std::size_t i = 0; i < collapses.size(); ++i) {
-      builder_.step(error_);
+      builder_.step(0);
       for (std::uint32_t w = collapses.first[i]; w < collapses.first[i + 1]; ++w) {
         const std::uint32_t lump = collapse(collapses.wedges[w].thrown, collapses.wedges[w].kept);
         if (lump != k_none) hold_area(lumps_[lump]);
       }
       if (lost_ > k_lost * all_) break;
     }
-    Spectrum s = builder_.finish();
-    // What a step leads to was known only after it: each was given the error of the state before.
-    std::vector<float> errors(s.errors.begin(), s.errors.end());
-    for (std::size_t n = 1; n < errors.size(); ++n)
-      errors[n] = n + 1 < errors.size() ? errors[n + 1] : round_up(error_);
-    s.errors = std::move(errors);
-    return {.spectrum = std::move(s),
+    return {.spectrum = builder_.finish(),
             .left = left(),
             .lumps = static_cast<std::uint32_t>(lumps_.size()),
             .triangles = static_cast<std::uint32_t>(
@@ -360,10 +349,7 @@ class Replay {
   }
 
   // Scales the vertex with its lump, within the crown's hull.
-  void put(std::uint32_t p, const Lump& lump) {
-    now_[p] = scaled(p, lump.centre, lump.by);
-    error_ = std::max(error_, quadrics_[p].rms(now_[p] - lump.centre));
-  }
+  void put(std::uint32_t p, const Lump& lump) { now_[p] = scaled(p, lump.centre, lump.by); }
 
   // As the lump's triangle looks now: with its own texture; flat where it was flat.
   std::array<SpectrumVertex, 3> corners(std::uint32_t t) const {
@@ -421,8 +407,7 @@ class Replay {
   // Within the crown's hull.
   Double3 scaled(std::uint32_t p, const Double3& centre, double by) const {
     Double3 at = centre + (shape_[p] - centre) * by;
-    const std::span<const Double3> all(&at, 1);
-    if (!hull_.fits(all, k_margin)) at += hull_.way_back(all, k_margin * hull_.width());
+    at += hull_.way_back(std::span(&at, 1), k_margin * hull_.width());
     return at;
   }
 
@@ -476,7 +461,7 @@ class Replay {
   std::vector<std::uint32_t> element_, lump_of_;    // of every triangle
   std::vector<std::vector<std::uint32_t>> around_;  // every place: triangles, of which some are gone
   std::vector<Lump> lumps_;
-  double error_ = 0, all_ = 0, lost_ = 0;  // areas: of all lumps, and what is missing of it
+  double all_ = 0, lost_ = 0;  // areas: of all lumps, and what is missing of it
 };
 
 }  // namespace
@@ -493,9 +478,7 @@ std::optional<SurfaceCollapse> collapse_surfaces(const LeafPieces& pieces) {
 Spectrum joined(const Spectrum& first, const Spectrum& then) {
   SpectrumBuilder builder(then.method);
   const std::uint32_t steps = first.steps();
-  for (std::uint32_t n = 1; n <= steps; ++n) builder.step(first.errors[n]);
-  const double error = first.errors.empty() ? 0 : double(first.errors[steps]);
-  for (std::uint32_t n = 1; n <= then.steps(); ++n) builder.step(error + then.errors[n]);
+  for (std::uint32_t n = 1; n <= steps + then.steps(); ++n) builder.step(0);
   const auto add = [&](const Spectrum& s, std::uint32_t later, std::uint32_t last) {
     std::vector<std::uint32_t> number;
     for (const SpectrumVertex& v : s.vertices) number.push_back(builder.vertex(v));

@@ -99,8 +99,7 @@ std::optional<LeafTwins> part_twins(const LeafPieces& pieces) {
 Spectrum twins_first(const LeafPieces& pieces, const LeafTwins& twins, const Spectrum& then) {
   const std::size_t steps = std::min(k_twin_steps, twins.gone.size());
   SpectrumBuilder builder(then.method);
-  for (std::size_t n = 0; n < steps; ++n) builder.step(0);
-  for (std::uint32_t n = 1; n <= then.steps(); ++n) builder.step(then.errors[n]);
+  for (std::size_t n = 0; n < steps + then.steps(); ++n) builder.step(0);
   for (const SpectrumVertex& v : then.vertices) builder.vertex(v);
   for (std::size_t e = 0; e < then.elements.size(); ++e) {
     SpectrumElement element = then.elements[e];
