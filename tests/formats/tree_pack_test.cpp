@@ -119,15 +119,16 @@ TEST(TreePack, LeavesOfOneShapeAreStoredAsFrames) {
   EXPECT_LT(same_shape.bytes.size() + 200 * 6, all_different.bytes.size());
 }
 
-// Leaves whose first edge has its middle on a limb, or anywhere; across the limb, and all alike.
-Tree with_leaves_on_limbs(bool on_limbs) {
-  Tree tree = make_tree({.roots = 1, .radii = 24, .leaves = 200, .groups = 5, .leaf = 2}, 9);
+// Leaves whose first edge has its middle on a limb, or anywhere; across the limb, and all alike, or of
+// several shapes in turn.
+Tree with_leaves_on_limbs(bool on_limbs, std::uint32_t leaves = 200, std::uint32_t shapes = 1) {
+  Tree tree = make_tree({.roots = 1, .radii = 24, .leaves = leaves, .groups = 5, .leaf = 2}, 9);
   Random random(1);
   const std::vector<Double3> centres = absolute_centres(tree);
   const std::vector<std::uint32_t> parent = parents(tree);
   std::vector<Float3> vertices;
   std::vector<CornerTriangle> triangles = tree.leaves.triangles.to_vector();
-  for (std::uint32_t leaf = 0; leaf < 200; ++leaf) {
+  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
     const auto r = static_cast<std::uint32_t>(1 + random.below(23));
     const Double3 from = centres[parent[r]], way = normalized(centres[r] - from);
     const Double3 x = normalized(cross(way, {random.uniform(-1, 1), random.uniform(-1, 1), 0.3}));
@@ -135,7 +136,8 @@ Tree with_leaves_on_limbs(bool on_limbs) {
     const double size = random.uniform(0.3, 0.6);
     Double3 at = from + (centres[r] - from) * random.uniform();
     if (!on_limbs) at += Double3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-    for (const auto& [u, v] : {std::pair{-0.5, 0.0}, {0.5, 0.0}, {0.5, 1.0}, {-0.5, 1.0}})
+    const double longer = 1 + 0.02 * (leaf % shapes);
+    for (const auto& [u, v] : {std::pair{-0.5, 0.0}, {0.5, 0.0}, {0.5, longer}, {-0.5, longer}})
       vertices.push_back(to_float(at + (x * u + y * v) * size));
     for (std::uint32_t t = 0; t < 2; ++t)
       for (std::uint32_t c = 0; c < 3; ++c)
@@ -169,6 +171,15 @@ TEST(TreePack, LeavesThatSitOnLimbsAreToldByThem) {
     EXPECT_EQ(back->leaves.vertices.to_vector(), p.tree.leaves.vertices.to_vector());
     EXPECT_LE(farthest_match(tree.leaves.vertices.to_vector(), p.tree.leaves.vertices.to_vector()),
               p.leaf_error * 1.0001 + 1e-6);
+  }
+}
+
+TEST(TreePack, ShapesThatWereForgottenAreToldAgain) {
+  for (const int bits : {9, 11, 14}) {
+    const PackedTree p = packed(with_leaves_on_limbs(true, 1600, 400), {.position_bits = bits});
+    const auto back = unpack_tree(p.bytes, head_of(p.tree), p.tree.materials);
+    ASSERT_TRUE(back.has_value()) << bits << ": " << back.error();
+    EXPECT_EQ(back->leaves.vertices.to_vector(), p.tree.leaves.vertices.to_vector());
   }
 }
 

@@ -108,6 +108,8 @@ class LeafCoder {
     if (recall(recent_shapes_, shape_, leaf.shape, sound)) return true;
     if (!sound) return false;
     if (c_.decoding()) leaf.shape = static_cast<std::uint32_t>(l_.shapes.size()), l_.shapes.emplace_back();
+    if (told_.size() <= leaf.shape) told_.resize(leaf.shape + 1, 0);
+    told_[leaf.shape] = times_told_++;
     PackedShape& s = l_.shapes[leaf.shape];
     if (!recall(recent_patterns_, pattern_, s.pattern, sound)) {
       if (!sound) return false;
@@ -301,7 +303,8 @@ class LeafCoder {
     const Double3 e = real(edge);
     // What ends a limb leans otherwise than what sits along it.
     const bool ends = x.along + 1 == 1u << limb->along_bits();
-    auto& [lean, number] = leans_.try_emplace({x.shape, ends}, LeafLean{1, 0}, leans_.size()).first->second;
+    auto& [lean, number] =
+        leans_.try_emplace({told_[x.shape], ends}, LeafLean{1, 0}, leans_.size()).first->second;
     const bool half = turn_of(lean, e, axis).half;
     x.half = c_.bit(other_half_, x.half != half) ? !half : half;
     const double units = turn_units(e);
@@ -442,7 +445,11 @@ class LeafCoder {
   Grid3 last_{};
   Octahedral last_normal_{};
   std::vector<std::vector<Grid2>> recent_texcoords_;
-  // Of the last leaf of each shape, and the shape's number by first use.
+  // When each shape was last told. One that has been forgotten is told again, and is another one to who
+  // reads: what is learnt of a shape goes by this, not by its number.
+  std::vector<std::uint32_t> told_;
+  std::uint32_t times_told_ = 0;
+  // Of the last leaf of each shape that was told, and a number by first use.
   std::map<std::pair<std::uint32_t, bool>, std::pair<LeafLean, std::size_t>> leans_;
   std::size_t last_up_ = 0, off_turn_ = 0, off_edge_ = 0;
   std::array<std::size_t, 3> off_anchor_{};

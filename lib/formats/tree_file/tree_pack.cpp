@@ -227,6 +227,9 @@ Result<PackedTree> written(PackPlan plan, const Head& head, const Tree& like) {
   out.bytes.insert(out.bytes.end(), coded.begin(), coded.end());
   out.trunk_error = plan.trunk.largest_error * plan.grid.step();
   out.leaf_error = plan.leaves.largest_error * plan.grid.step();
+  // Nothing else would tell before the file is needed.
+  if (const auto back = unpack_tree(out.bytes, head_of(out.tree), like.materials); !back)
+    return fail(Fault::bug, "", "a packed tree that does not read: " + back.error(), "report this");
   out.plan = std::make_shared<const PackPlan>(std::move(plan));
   return out;
 }
