@@ -69,6 +69,12 @@ TEST(HullRelaxation, IsUndoneByAFactorThatIsKnown) {
   for (std::size_t v = 0; v < p.size(); ++v) EXPECT_LT(distance(p[v], k_squares[v]), 1e-6) << v;
 }
 
+// Two vertices that both became their mean may have been anywhere.
+TEST(HullRelaxation, HasNothingWhereItIsNotTold) {
+  const Lists pair = make_lists({{0, 1}, {1, 0}}, 2);
+  EXPECT_TRUE(before_hull_relaxation({{0, 0, 0}, {1, 0, 0}}, pair, std::vector<double>{1, 1}, 1).empty());
+}
+
 TEST(HullRelaxation, LeavesAloneWhatWasNotMoved) {
   std::vector<Double3> p = k_squares;
   EXPECT_EQ(undo_hull_relaxation(p, edges(true), k_weights, squares, 1), 0);

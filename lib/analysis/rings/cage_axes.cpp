@@ -274,10 +274,10 @@ class CageAxes {
       const Station& b = stations_[next(before, n)];
       const double step = distance(a.centre, b.centre);
       if (b.node == k_none || !b.is_whole || !(step > 0)) continue;
-      const Line line{a.centre, (a.centre - b.centre) / step, a.radius, 0, {}, 0};
+      const Line line{a.centre, (a.centre - b.centre) / step, a.radius, (a.radius - b.radius) / step, {}, 0};
       const double way = distance(station.centre, a.centre);
       if (line.off(station.centre) <= tolerance(line) * std::max(1.0, way / step))
-        led.push_back(a.radius + (a.radius - b.radius) / step * way);
+        led.push_back(line.radius_beyond(way));
     }
     std::vector<double>& radii = led.empty() ? beside : led;
     std::ranges::sort(radii);
@@ -312,6 +312,11 @@ class CageAxes {
     std::vector<std::uint32_t> chain;
     std::size_t at = 0;  // the place of the first of these rings in the chain
     double off(const Double3& p) const { return length(cross(p - point, direction)); }
+    // So far beyond the point; where it would have run out, as thick as there.
+    double radius_beyond(double way) const {
+      const double there = radius + slope * way;
+      return there > 0 ? there : radius;
+    }
   };
 
   bool find_line(const std::vector<std::uint32_t>& way, bool mended, Line& line) const {
@@ -385,7 +390,7 @@ class CageAxes {
         continue;
       }
       std::vector<double> radii;
-      for (const Line& l : lines) radii.push_back(l.radius + l.slope * distance(point, l.point));
+      for (const Line& l : lines) radii.push_back(l.radius_beyond(distance(point, l.point)));
       std::ranges::sort(radii);
       stations_[fork].centre = point;
       stations_[fork].radius = radii[radii.size() / 2];
@@ -409,7 +414,7 @@ class CageAxes {
     Station& corner = stations_[line.chain[line.at - 1]];
     const double along = dot(corner.centre - line.point, line.direction);
     corner.centre = line.point + line.direction * along;
-    corner.radius = line.radius + line.slope * along;
+    corner.radius = line.radius_beyond(along);
     corner.is_kept = true;
   }
 

@@ -203,7 +203,9 @@ class CageReader {
     if (!(factor > 0)) return false;
     for (std::size_t round = 0; round < k_most_hung && try_hung(moved, factor); ++round) {
     }
-    c_.surface.positions = before_hull_relaxation(moved, relaxed_neighbours(), relaxation_weights(), factor);
+    std::vector<Double3> p =
+        before_hull_relaxation(moved, relaxed_neighbours(), relaxation_weights(), factor);
+    if (!p.empty()) c_.surface.positions = std::move(p);
     return true;
   }
 
@@ -246,7 +248,7 @@ class CageReader {
         before_hull_relaxation(moved, relaxed_neighbours(), relaxation_weights(), factor);
     for (const std::uint32_t b : tried) {
       const std::uint32_t end = end_at_fork(b);
-      is_hung_[b] = doubled_corners(p, end) + is_regular_at(p, c_.graph.node_of[end ^ 1u]) >= 2;
+      is_hung_[b] = !p.empty() && doubled_corners(p, end) + is_regular_at(p, c_.graph.node_of[end ^ 1u]) >= 2;
     }
     return true;
   }

@@ -21,13 +21,14 @@ std::vector<Double3> before_hull_relaxation(const std::vector<Double3>& moved, c
       const double weight = weights[v] * factor;
       const double share = weight / static_cast<double>(neighbours[v].size() + 1);
       const Double3 next = (moved[v] - sum * share) / (1 - weight + share);
+      if (!is_finite(next)) return {};
       change = std::max(change, distance(next, p[v]));
       size = std::max(size, distance(next, moved[v]));
       p[v] = next;
     }
-    if (change <= k_relaxation_done * size) break;
+    if (change <= k_relaxation_done * size) return p;
   }
-  return p;
+  return {};
 }
 
 double undo_hull_relaxation(std::vector<Double3>& positions, const Lists& neighbours,
@@ -41,6 +42,7 @@ double undo_hull_relaxation(std::vector<Double3>& positions, const Lists& neighb
   for (int step = 1; step <= k_steps; ++step) {
     const double tried = static_cast<double>(step) / k_steps;
     std::vector<Double3> p = before_hull_relaxation(positions, neighbours, weights, tried);
+    if (p.empty()) continue;
     const std::size_t regular = regular_rings(p);
     if (regular < most) continue;
     most = regular + 1;

@@ -12,7 +12,8 @@
 namespace copse {
 
 // Where positions were before each was moved by its weight times `factor` towards the mean of itself and its
-// neighbours. Linear in the lists.
+// neighbours; nothing where that is not told (Gauss and Seidel's iteration runs away, as it may for weights
+// above a half). Linear in the lists.
 std::vector<Double3> before_hull_relaxation(const std::vector<Double3>& moved, const Lists& neighbours,
                                             std::span<const double> weights, double factor);
 
