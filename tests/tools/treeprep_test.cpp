@@ -3,9 +3,12 @@
 #include "tests/tools/little_obj.h"
 #include "tests/tools/process.h"
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace copse {
@@ -71,6 +74,29 @@ TEST_F(Treeprep, WritesAStaticTreeWithoutAHierarchy) {
   EXPECT_TRUE(t.hierarchy.radii.empty());
   EXPECT_EQ(t.trunk.vertices.size(), 30u);
   EXPECT_EQ(t.trunk.lines.size(), 4u);
+}
+
+// A trunk of blades round a thin core: what passes for its surface is far from every branch in it.
+std::string star_obj() {
+  constexpr int k_corners = 10, k_rings = 4;
+  std::string obj = "o trunk\n";
+  for (int i = 0; i < k_corners * k_rings; ++i) {
+    const double a = 2 * std::numbers::pi * i / k_corners, radius = i % 2 == 0 ? 1 : 0.05;
+    obj += fmt::format("v {} {} {}\n", radius * std::cos(a), i / k_corners, radius * std::sin(a));
+  }
+  for (int i = 0; i < k_corners * (k_rings - 1); ++i) {
+    const int a = i + 1, b = i - i % k_corners + (i + 1) % k_corners + 1;
+    obj += fmt::format("f {} {} {} {}\n", a, b, b + k_corners, a + k_corners);
+  }
+  return obj;
+}
+
+TEST_F(Treeprep, WarnsOfATrunkThatItsBranchesDoNotExplain) {
+  const Outcome star = prepare(input(star_obj()), {"--trunk", "*"});
+  ASSERT_EQ(star.status, 0);
+  EXPECT_THAT(star.err, ::testing::HasSubstr("% of the trunk's triangles fit none of the branches"));
+  EXPECT_THAT(prepare(input(star_obj()), {"--trunk", "*", "-q"}).err, ::testing::IsEmpty());
+  EXPECT_THAT(prepare(input(little_tree_obj())).err, ::testing::Not(::testing::HasSubstr("fit none")));
 }
 
 TEST_F(Treeprep, WritesTheSameBytesForAnyThreadCountAndFolder) {
