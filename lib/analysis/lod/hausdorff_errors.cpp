@@ -17,7 +17,7 @@ constexpr std::size_t k_pieces = 16;  // more a triangle that is drawn, until ha
 constexpr std::size_t k_least_pieces = 8192;
 constexpr std::size_t k_tried = 4;  // elements of a step that are asked before all others
 constexpr double k_loose = 1.1;  // how much farther than the nearest triangle one may be that is taken for it
-constexpr double k_close = 0.3;  // of the error: what is so near needs no nearer one to be looked for
+constexpr double k_close = 0.2;  // of the error: what is so near needs no nearer one
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
 // A triangle or a part of one.
