@@ -252,6 +252,25 @@ RC_GTEST_PROP(Recover, IsSoundForAnySoup, ()) {
   RC_ASSERT(static_cast<bool>(is_sound(mesh_of(p, t))));
 }
 
+TEST(Recover, OfATreeWithASecondShellInItsPlaceIsTheTree) {
+  const Mesh mesh = little_tree(1, {});
+  for (const bool flipped : {false, true}) {
+    Mesh twice = mesh;
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    twice.positions.insert(twice.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    for (const Triangle& t : mesh.triangles) {
+      const Triangle copy{first + t[0], first + t[flipped ? 2 : 1], first + t[flipped ? 1 : 2]};
+      twice.triangles.push_back(copy);
+      twice.part_of.push_back(0);
+    }
+    const Hierarchy one = recover(mesh), two = recover(twice);
+    EXPECT_TRUE(is_sound(twice));
+    ASSERT_EQ(two.radii.size(), one.radii.size());
+    for (std::size_t r = 0; r < one.radii.size(); ++r) EXPECT_EQ(two.radii[r].centre, one.radii[r].centre);
+    EXPECT_EQ(std::ranges::count(two.segment_of, k_none), 2 * std::ranges::count(one.segment_of, k_none));
+  }
+}
+
 TEST(Recover, GivesTheSameAnswerForTheSameMesh) {
   const Mesh mesh = little_tree(1, {});
   const Hierarchy a = recover(mesh), b = recover(mesh);

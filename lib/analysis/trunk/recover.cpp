@@ -3,6 +3,7 @@
 #include "lib/analysis/rings/limbs.h"
 #include "lib/analysis/rings/ring_reader.h"
 #include "lib/analysis/surface/fans.h"
+#include "lib/analysis/surface/surface_copies.h"
 #include "lib/analysis/surface/surfaces.h"
 #include "lib/analysis/surface/tolerances.h"
 #include "lib/analysis/trunk/attach.h"
@@ -42,16 +43,18 @@ bool is_plate(const DoubleBox& surface, const DoubleBox& all) {
          surface.min.y - all.min.y <= k_plate_height * whole.y && whole.y > e.y;
 }
 
-void mark_plates(const TrunkMesh& mesh, const Surfaces& surfaces, Limbs& limbs) {
-  if (surfaces.size() < 2) return;
+// One a surface.
+std::vector<std::uint8_t> find_plates(const TrunkMesh& mesh, const Surfaces& surfaces) {
+  std::vector<std::uint8_t> is_plate_of(surfaces.size(), 0);
+  if (surfaces.size() < 2) return is_plate_of;
   DoubleBox all;
   for (const Double3& p : mesh.positions) all.grow(p);
-  limbs.is_plate.assign(surfaces.size(), 0);
   for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
     DoubleBox box;
     for (const std::uint32_t v : surfaces.vertices(s)) box.grow(mesh.positions[v]);
-    limbs.is_plate[s] = is_plate(box, all);
+    is_plate_of[s] = is_plate(box, all);
   }
+  return is_plate_of;
 }
 
 // Ground is no limb that lies there, as its rings would say, but a short thick stub that stands there: what
@@ -121,12 +124,18 @@ Limbs read_limbs(const TrunkMesh& mesh, const RecoverOptions& options) {
   const WeldedOptions welded{options.skeleton == Skeleton::automatic ? WeldedMethod::automatic
                              : options.skeleton == Skeleton::rings   ? WeldedMethod::rings
                                                                      : WeldedMethod::surface};
-  mark_plates(mesh, surfaces, limbs);
-  std::uint32_t tubes = 0, grounds = 0;
+  const std::vector<std::uint8_t> plates = find_plates(mesh, surfaces);
+  const SurfaceCopies copies = find_surface_copies(mesh, surfaces);
+  std::uint32_t tubes = 0, grounds = 0, copied = 0;
   std::uint64_t welded_triangles = 0;
   for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
     const auto triangles = surfaces.triangles(s);
-    if (limbs.plate(s) && append_ground(mesh, triangles, surfaces.vertices(s), limbs)) {
+    if (copies.original[s] != k_none) {
+      ++copied;
+      continue;
+    }
+    limbs.is_plate.push_back(plates[s]);
+    if (plates[s] != 0 && append_ground(mesh, triangles, surfaces.vertices(s), limbs)) {
       ++grounds;
       continue;
     }
@@ -142,8 +151,17 @@ Limbs read_limbs(const TrunkMesh& mesh, const RecoverOptions& options) {
     limbs.owner[triangle] = limbs.owner[original];
     limbs.lid[triangle] = limbs.lid[original];
   }
+  for (const auto& [triangle, original] : copies.triangles) {
+    limbs.owner[triangle] = limbs.owner[original];
+    limbs.lid[triangle] = limbs.lid[original];
+  }
   limbs.notes.push_back(fmt::format("{} of {} surfaces read as rings; {} triangles lie in the others", tubes,
-                                    surfaces.size() - grounds, welded_triangles));
+                                    surfaces.size() - grounds - copied, welded_triangles));
+  if (copied > 0) {
+    limbs.notes.push_back(
+        fmt::format("{} surfaces of {} triangles lie corner for corner on others, and are read with these",
+                    copied, copies.triangles.size()));
+  }
   if (grounds > 0)
     limbs.notes.push_back("a plate at the bottom, half as wide as everything, is ground and no limb");
   return limbs;
