@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Bytes against error: the trees with hierarchy and continuous levels as `lodbake --encode small` writes them, from 8 to 16 bits a
-position, by section, with the largest error of a vertex of full detail; beside them the mesh alone by gltfpack -cc with as many bits.
+position, by section, with the largest error of a vertex of full detail; beside them the mesh alone by gltfpack -cc with as many bits;
+then, at 14 bits, what every stream of the sections takes, and the file with bvfit's smallest sphere round each leaf group.
 
 ./run bench lod_bytes               the two trees of the goal
 python3 bench/lod_bytes.py NAME...  the trees at ../shared/trees whose names begin so (the tools must be in PATH)
@@ -16,6 +17,7 @@ import tempfile
 from lod import TREES, find_gltfpack, run
 
 BITS = [8, 10, 12, 14, 16]
+DEFAULT_BITS = 14
 SECTIONS = ["PACK", "LSTR", "LSLV"]
 
 
@@ -39,8 +41,16 @@ def show(mesh, folder):
             subprocess.run([str(c) for c in command], check=True, stderr=subprocess.DEVNULL)  # it misses the textures
             peer = packed.stat().st_size
         sections = section_bytes(small)
+        if bits == DEFAULT_BITS:
+            streams = next((t["rows"] for t in json.loads(report.read_text())["tables"] if t["name"] == "streams"), [])
+            run("bvfit", small, "-o", folder / "spheres.stree", "--volumes", "sphere", "--per", "groups", "-q")
+            with_spheres = (folder / "spheres.stree").stat().st_size
         print(f"{mesh.name:28} {bits:4} {small.stat().st_size:9} " + " ".join(f"{sections.get(s, 0):7}" for s in SECTIONS) +
               f" {1000 * largest:9.2f} {peer:>9}", flush=True)
+    print(f"\nat {DEFAULT_BITS} bits with a sphere a leaf group: {with_spheres} bytes; streams, values, bytes, bits a value:")
+    for section, stream, values, size, each in streams:
+        print(f"  {section:5} {stream:34} {values:>7} {size:>7} {each:>7}")
+    print(flush=True)
 
 
 def main():

@@ -18,7 +18,7 @@
 
 namespace copse {
 
-inline constexpr std::uint32_t k_spectrum_version = 2;
+inline constexpr std::uint32_t k_spectrum_version = 3;
 
 enum class SpectrumCoding : std::uint32_t {
   fast = 0,   // every array as it lies in memory: exact, nothing to decode
@@ -35,7 +35,8 @@ struct SpectrumCodingOptions {
 struct EncodedSpectrum {
   std::vector<std::uint8_t> bytes;
   double position_error =
-      0;  // the largest distance of a vertex from where it was, metres; at most half a step a side
+      0;  // the largest distance of a vertex from where it was, metres; at most half a step a side, of a tube
+          // that is coded against the tree a sixteenth of the error of its state where that is more
   std::vector<StreamCost> streams = {};  // of what is coded against the tree
 };
 

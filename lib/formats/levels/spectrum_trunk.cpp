@@ -3,6 +3,7 @@
 #include "lib/formats/levels/part_triangles.h"
 #include "lib/formats/levels/spectrum_draft.h"
 #include "lib/formats/little_endian.h"
+#include "lib/formats/packing/context_mixing.h"
 #include "lib/formats/packing/leaf_frame.h"
 #include "lib/formats/packing/octahedral.h"
 #include "lib/formats/packing/pack_trunk.h"
@@ -26,6 +27,7 @@ constexpr std::uint32_t k_most_up = 512;  // radii between the ends of a tube th
 constexpr std::size_t k_most_recent = 128, k_most_faces = 4096;
 constexpr int k_normal_slack = 4;    // of 127: a normal of a made tube may be off by as many, some 3 degrees
 constexpr int k_texcoord_slack = 2;  // bits that texture coordinates of made tubes have less
+constexpr double k_fineness = 16;    // steps of a made tube's positions in the error of its state, at least
 constexpr int k_dropped = 13;        // bits of an error
 
 // How a made element's triangles hang together, by first use of vertices, and at which end each vertex is.
@@ -352,6 +354,20 @@ class Coder {
     return c < -0.9 ? v : v * c + cross(axis, v) + axis * (dot(axis, v) / (1 + c));
   }
 
+  // Bits that a position needs less: what is made errs by so much anyway.
+  int coarseness(std::uint32_t step) const {
+    const double most =
+        double(p_.errors[std::min<std::size_t>(step, p_.errors.size() - 1)]) / (k_fineness * step_);
+    int bits = 0;
+    while (bits < 30 && std::ldexp(2.0, bits) <= most) ++bits;
+    return bits;
+  }
+  static std::int64_t coarse(std::int64_t x, int bits) {
+    const std::int64_t half = bits > 0 ? std::int64_t{1} << (bits - 1) : 0;
+    return (x + half) >> bits;
+  }
+  static std::size_t class_of(std::int64_t x) { return std::min<std::size_t>(size_class(x), 23); }
+
   bool code_vertex(const Made& m, std::size_t i, const Ends& ends, const std::vector<std::uint32_t>& list,
                    std::uint32_t like) {
     const std::size_t e = m.pattern.at_child[i];
@@ -362,8 +378,16 @@ class Coder {
     const Place expected = expected_place(m, i, ends, list, like, kind);
     bool sound = true;
     c_.stream("tubes: positions");
+    const int bits = coarseness(m.birth);
+    const std::size_t reach =
+        class_of((std::abs(expected.rel[0]) + std::abs(expected.rel[1]) + std::abs(expected.rel[2])) >> bits);
+    std::size_t before = 0;
     for (std::size_t a = 0; a < 3; ++a) {
-      own.rel[a] = expected.rel[a] + c_.signed_number(position_[kind][a], own.rel[a] - expected.rel[a]);
+      const std::int64_t off =
+          position_.code(c_, {3 * kind + a, 24 * kind + before, 24 * kind + reach, 24 * kind + off_[a]},
+                         coarse(own.rel[a] - expected.rel[a], bits));
+      own.rel[a] = expected.rel[a] + off * (std::int64_t{1} << bits);
+      before = off_[a] = class_of(off);
       sound = sound && std::abs(own.rel[a]) <= 16 * k_grid_limit;
     }
     const Octahedral towards =
@@ -371,12 +395,18 @@ class Coder {
     if (!c_.decoding() && near(own.normal, towards)) own.normal = towards;
     for (std::size_t k = 0; k < 2; ++k) {
       c_.stream("tubes: normals");
-      own.normal[k] = static_cast<std::int32_t>(std::clamp<std::int64_t>(
-          towards[k] + c_.signed_number(normal_[std::min<std::size_t>(kind, 3)], own.normal[k] - towards[k]),
-          -k_octahedral_limit, k_octahedral_limit));
+      const std::size_t way = std::min<std::size_t>(kind, 3);
+      const std::int64_t turned = normal_.code(
+          c_, {2 * way + k, 9 * way + off_normal_[k], 9 * k + off_normal_[0]}, own.normal[k] - towards[k]);
+      own.normal[k] = static_cast<std::int32_t>(
+          std::clamp<std::int64_t>(towards[k] + turned, -k_octahedral_limit, k_octahedral_limit));
+      off_normal_[k] = std::min<std::size_t>(size_class(turned), 8);
       c_.stream("tubes: texture coordinates");
-      own.texcoord[k] =
-          expected.texcoord[k] + c_.signed_number(texcoord_[kind][k], own.texcoord[k] - expected.texcoord[k]);
+      const std::int64_t moved =
+          texcoord_.code(c_, {2 * kind + k, 24 * kind + off_texcoord_[k], 24 * k + off_texcoord_[0]},
+                         own.texcoord[k] - expected.texcoord[k]);
+      own.texcoord[k] = expected.texcoord[k] + moved;
+      off_texcoord_[k] = class_of(moved);
       sound = sound && std::abs(own.texcoord[k]) <= 16 * k_grid_limit;
     }
     last_texcoord_ = own.texcoord;
@@ -496,9 +526,9 @@ class Coder {
   SignedModel made_radius_, name_;
   BitModel own_radius_, goes_, same_material_, end_, old_;
   std::array<BitModel, 2> again_;
-  std::array<std::array<SignedModel, 3>, 7> position_;
-  std::array<SignedModel, 4> normal_;
-  std::array<std::array<SignedModel, 2>, 7> texcoord_;
+  MixedSigned position_{21, 168, 168, 168}, normal_{8, 36, 18}, texcoord_{14, 168, 48};
+  std::array<std::size_t, 3> off_{};
+  std::array<std::size_t, 2> off_normal_{}, off_texcoord_{};
 };
 
 using Key = std::array<std::uint32_t, 8>;

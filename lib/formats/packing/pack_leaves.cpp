@@ -249,15 +249,27 @@ class LeafCoder {
 
   void code_vertex(PackedLeaf& x, const LeafPattern& p, std::size_t v, bool is_first) {
     std::size_t kind = v == 0 ? (is_first ? 0 : 1) : x.framed ? 2 : 3;
-    const Grid3 expected = v == 0 ? last_ : expected_vertex(x, p, v, kind);
+    Grid3 expected = v == 0 ? last_ : expected_vertex(x, p, v, kind);
     c_.stream(v == 0 ? "leaves: first corners" : "leaves: other corners");
     std::size_t before = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
+    double along = 0;  // second edge x first edge
+    const std::optional<double> lean = kind == 3 && v == 2 ? mapped_along(x, p) : std::nullopt;
+    Grid3 edge{};
+    for (std::size_t a = 0; a < 3 && lean; ++a) edge[a] = x.vertices[1][a] - x.vertices[0][a];
+    const std::array<std::size_t, 3> order = lean ? by_size(real(edge)) : std::array<std::size_t, 3>{0, 1, 2};
+    for (const std::size_t a : order) {
+      if (lean && a == order[2] && edge[a] != 0) {
+        const double squared = dot(real(edge), real(edge));
+        expected[a] =
+            grid_offset(x.vertices[0][a] + std::llround((*lean * squared - along) / double(edge[a])));
+        kind = 6;
+      }
       const std::int64_t off = vertex_.code(
           c_, {3 * kind + a, 24 * kind + before, 24 * kind + off_[std::min<std::size_t>(v, 7)][a]},
           x.vertices[v][a] - expected[a]);
       x.vertices[v][a] = grid_offset(expected[a] + off);
       before = std::min<std::size_t>(size_class(off), 23), off_[std::min<std::size_t>(v, 7)][a] = before;
+      along += double(x.vertices[v][a] - x.vertices[0][a]) * double(edge[a]);
     }
   }
 
@@ -328,12 +340,36 @@ class LeafCoder {
     return true;
   }
 
-  // Across the limb: the coordinate in which the limb goes farthest follows from the other two.
-  void code_edge(Grid3& edge, const Double3& axis) {
+  // The axes, that along which this goes least first.
+  static std::array<std::size_t, 3> by_size(const Double3& way) {
     std::array<std::size_t, 3> order{0, 1, 2};
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return std::abs(axis[static_cast<int>(a)]) < std::abs(axis[static_cast<int>(b)]);
+      return std::abs(way[static_cast<int>(a)]) < std::abs(way[static_cast<int>(b)]);
     });
+    return order;
+  }
+
+  // Of a leaf whose first edge lies along one of its picture's sides: how far the second edge goes along it,
+  // in lengths of it.
+  std::optional<double> mapped_along(const PackedLeaf& x, const LeafPattern& p) const {
+    if (!p.has_texcoords) return std::nullopt;
+    const std::vector<Grid2>& uvs = x.mapped ? l_.shapes[x.shape].texcoords : x.texcoords;
+    std::array<const Grid2*, 3> uv{};
+    for (std::size_t w = 0; w < p.vertex_of.size(); ++w)
+      if (const std::uint32_t v = p.vertex_of[w]; v < 3 && uv[v] == nullptr) uv[v] = &uvs[w];
+    if (std::find(uv.begin(), uv.end(), nullptr) != uv.end()) return std::nullopt;
+    for (const std::size_t k : {0u, 1u}) {
+      const std::int64_t side = (*uv[1])[k] - (*uv[0])[k];
+      if (side == 0 || (*uv[1])[1 - k] != (*uv[0])[1 - k]) continue;
+      const double t = double((*uv[2])[k] - (*uv[0])[k]) / double(side);
+      if (std::abs(t) <= 4) return t;
+    }
+    return std::nullopt;
+  }
+
+  // Across the limb: the coordinate in which the limb goes farthest follows from the other two.
+  void code_edge(Grid3& edge, const Double3& axis) {
+    const std::array<std::size_t, 3> order = by_size(axis);
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t a = order[k];
@@ -462,7 +498,7 @@ class LeafCoder {
   std::array<SignedModel, 3> centre_;
   SignedModel limb_, place_, shape_texcoord_, shape_normal_, point_, turn_, texcoord_;
   std::array<SignedModel, 2> normal_;
-  MixedSigned vertex_{18, 144, 144}, edge_{3, 75}, lean_{16, 32}, anchor_{3, 25};
+  MixedSigned vertex_{21, 168, 168}, edge_{3, 75}, lean_{16, 32}, anchor_{3, 25};
   MixedNumber up_{k_most_up + 2, 2};
 };
 
