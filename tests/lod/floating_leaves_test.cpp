@@ -102,6 +102,26 @@ TEST(FloatingLeaves, FloatsByIsWhetherItHasEverFloatedInWhateverOrderOneAsks) {
   }
 }
 
+TEST(FloatingLeaves, OnlyStepsAfterThoseThatMoveEverythingAreBlamed) {
+  Tree tree = stem_with_twigs(6, 8, 5);
+  const LodSpectra s = with_leaves(tree, 0.02);
+  const std::vector<std::vector<bool>> floats = each_alone(tree, s);
+  std::size_t excused = 0, blamed = 0;
+  for (std::uint32_t from = 1; from < s.trunk.steps(); ++from) {
+    FloatingLeaves floating(tree, s, from);
+    for (std::uint32_t e = 0; e < floats.size(); ++e) {
+      bool by = false;
+      for (std::uint32_t steps = 0; steps <= s.trunk.steps(); ++steps) {
+        by = by || (steps > from && !floats[e][from] && floats[e][steps]);
+        EXPECT_EQ(floating.floats_by(e, steps), by) << e << " after " << steps << " of " << from;
+      }
+      excused += floats[e][from], blamed += by;
+    }
+  }
+  EXPECT_GT(excused, 0u);
+  EXPECT_GT(blamed, 0u);
+}
+
 TEST(FloatingLeaves, NothingFloatsByFullDetailHoweverFarItIs) {
   Tree tree = stem_with_twigs(6, 8, 5);
   LodSpectra s = with_leaves(tree, 0.02);

@@ -48,6 +48,29 @@ TEST_F(Lodbake, TheTrunkOfAStillTreeGoesByEdges) {
   EXPECT_EQ(run_process({"treedump", out_, "--verify", "-q"}).status, 0);
 }
 
+TEST_F(Lodbake, ATrunkOfManyTubesLeavesLeavesToSmallLevelsByEdgesToo) {
+  const std::string still = folder_.file("tubes.tree"), report = folder_.file("report.json");
+  ASSERT_EQ(run_process({"treegrow", "birch", "--triangles", "6000", "--no-textures", "-o",
+                         folder_.file("tubes.obj"), "-q"})
+                .status,
+            0);
+  ASSERT_EQ(run_process({"treeprep", folder_.file("tubes.obj"), "-o", still, "-q"}).status, 0);
+  const Outcome o = run_process({"lodbake", still, "-o", folder_.file("tubes.lod.tree"), "--discrete", "0.1",
+                                 "--divide", "even", "--encode", "small", "--report", report});
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.err.find("not to be had"), std::string::npos) << o.err;
+  const auto page = nlohmann::json::parse(read_text(report));
+  for (const auto& table : page["tables"]) {
+    if (table["name"] != "levels") continue;
+    const double all = std::stod(table["rows"][0][4].get<std::string>()),
+                 left = std::stod(table["rows"][1][4].get<std::string>());
+    EXPECT_GT(left, 0.02 * all) << "a triangle or two without pieces that go";
+    EXPECT_LE(std::stod(table["rows"][1][1].get<std::string>()),
+              0.1 * std::stod(table["rows"][0][1].get<std::string>()));
+    EXPECT_EQ(table["rows"][1][7], "0") << "floating leaves";
+  }
+}
+
 TEST_F(Lodbake, ATreeOfOnePartHasTheTrianglesThatItSays) {
   write_text(folder_.path() / "bare.obj", little_tree_obj(40, 12, 0));
   ASSERT_EQ(run_process({"treeprep", folder_.file("bare.obj"), "-o", tree_, "-q"}).status, 0);

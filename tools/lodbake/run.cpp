@@ -76,6 +76,12 @@ std::vector<LodLevel> with_full_detail(const LodSpectra& spectra) {
   return levels;
 }
 
+// Of the triangles of leaves, where there are any.
+std::string leaves_left(const Spectrum& leaves, std::uint32_t steps) {
+  if (leaves.counts.empty() || leaves.counts[0] == 0) return {};
+  return fmt::format("; {} of {} triangles of leaves are left", leaves.counts[steps], leaves.counts[0]);
+}
+
 // What was asked for and is not to be had.
 void warn_of_levels(const Options& options, const LodSpectra& spectra,
                     const std::vector<std::uint64_t>& floating, Context& context) {
@@ -89,8 +95,8 @@ void warn_of_levels(const Options& options, const LodSpectra& spectra,
       if (level.triangles > asked)
         context.warn(
             fmt::format("{}: level {} has {} triangles, not the {} that were asked for: fewer are not "
-                        "to be had by these methods",
-                        file, i + 1, level.triangles, asked));
+                        "to be had by these methods{}",
+                        file, i + 1, level.triangles, asked, leaves_left(spectra.leaves, level.leaf_steps)));
     }
     if (i > 0 && level.trunk_steps == spectra.discrete[i - 1].trunk_steps &&
         level.leaf_steps == spectra.discrete[i - 1].leaf_steps)

@@ -6,6 +6,7 @@
 #include "lib/analysis/lod/floating_leaves.h"
 #include "lib/analysis/lod/foliage_pruning.h"
 #include "lib/analysis/lod/leaf_collapse.h"
+#include "lib/analysis/lod/piece_removal.h"
 #include "lib/analysis/lod/trunk_radii.h"
 #include "tools/lodbake/level_pictures.h"
 
@@ -30,6 +31,14 @@ Spectrum trunk_by_edges(const Tree& tree, const Options& options) {
       radius[t] = tree.trunk.lines[s][1];
   }
   return edge_spectrum(trunk, collapse_edges(trunk, {.min_triangles = options.min_triangles}), radius);
+}
+
+// Leaves wait for their twigs where twigs go one by one: by radii from the beginning, by edges where whole
+// pieces go. Edge collapses move all of the trunk a little, and pruned leaves go all over the crown: nothing
+// could go on. Nothing: no leaf waits.
+std::optional<std::uint32_t> waits_from(const LodSpectra& spectra, std::uint32_t collapses) {
+  if (spectra.leaves.method != LodMethod::collapse) return std::nullopt;
+  return spectra.trunk.method == LodMethod::radii ? 0 : collapses;
 }
 
 bool has_limbs(const Tree& tree) {
@@ -80,18 +89,19 @@ LeafParts leaf_spectrum(const Tree& tree, const Looks& looks, const Options& opt
 
 void divide(const Tree& tree, const Looks& looks, const Options& options, LodSpectra& spectra) {
   const bool both = !spectra.trunk.elements.empty() && !spectra.leaves.elements.empty();
+  const std::uint32_t collapses = spectra.trunk.steps();
+  if (spectra.trunk.method == LodMethod::edges)
+    spectra.trunk = remove_pieces(spectra.trunk, options.min_triangles);
   LevelError error;
   std::optional<LevelPictures> pictures;
   if (both && options.division == Division::picture) {
     pictures.emplace(spectra, looks);
     error = [&](const TriedLevel& level) { return pictures->error(level); };
   }
-  // Leaves wait for their twigs where twigs go one by one. Edge collapses move all of the trunk a little, and
-  // pruned leaves go all over the crown: nothing could go on.
   std::optional<FloatingLeaves> floating;
   CouplingOptions coupling{.min_triangles = options.min_triangles};
-  if (both && spectra.trunk.method == LodMethod::radii && spectra.leaves.method == LodMethod::collapse) {
-    floating.emplace(tree, spectra);
+  if (const auto from = waits_from(spectra, collapses); both && from) {
+    floating.emplace(tree, spectra, *from);
     coupling.floats_by = [&](std::uint32_t leaf, std::uint32_t steps) {
       return floating->floats_by(leaf, steps);
     };

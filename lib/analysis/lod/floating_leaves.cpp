@@ -30,13 +30,14 @@ double segment_square(const Double3& p, const Double3& q, const Double3& a, cons
   return dot(apart, apart);
 }
 
-double box_square(const DoubleBox& a, const DoubleBox& b) {
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double d = std::max({a.min[i] - b.max[i], 0.0, b.min[i] - a.max[i]});
-    sum += d * d;
-  }
-  return sum;
+template <class A, class B>
+double box_square(const Box<A>& a, const Box<B>& b) {
+  const auto apart = [](double a_min, double a_max, double b_min, double b_max) {
+    return std::max(std::max(a_min - b_max, b_min - a_max), 0.0);
+  };
+  const Double3 d{apart(a.min.x, a.max.x, b.min.x, b.max.x), apart(a.min.y, a.max.y, b.min.y, b.max.y),
+                  apart(a.min.z, a.max.z, b.min.z, b.max.z)};
+  return dot(d, d);
 }
 
 struct Facet {
@@ -104,17 +105,23 @@ double triangle_square(const Facet& t, const Facet& s, double reach, double enou
   return least;
 }
 
-Corners corners_of(const Spectrum& s, std::uint32_t triangle) {
-  Corners out;
-  for (std::size_t c = 0; c < 3; ++c) out[c] = to_double(s.vertices[s.triangles[triangle][c]].position);
+using StoredCorners = std::array<Float3, 3>;
+
+StoredCorners corners_of(const Spectrum& s, std::uint32_t triangle) {
+  StoredCorners out;
+  for (std::size_t c = 0; c < 3; ++c) out[c] = s.vertices[s.triangles[triangle][c]].position;
   return out;
+}
+
+Corners exact(const StoredCorners& corners) {
+  return {to_double(corners[0]), to_double(corners[1]), to_double(corners[2])};
 }
 
 // The triangles of one leaf.
 struct Leaf {
   Leaf(const Spectrum& s, std::size_t element) {
     for (std::uint32_t t = s.first_triangle[element]; t < s.first_triangle[element + 1]; ++t) {
-      facets.emplace_back(corners_of(s, t));
+      facets.emplace_back(exact(corners_of(s, t)));
       box.grow(facets.back().box);
     }
   }
@@ -143,7 +150,7 @@ class FloatingLeaves::DrawnTrunk {
     for (std::size_t e = 0; e < trunk.elements.size(); ++e) {
       if (trunk.elements[e].birth > last) continue;
       for (std::uint32_t t = trunk.first_triangle[e]; t < trunk.first_triangle[e + 1]; ++t)
-        pieces_.push_back({Facet(corners_of(trunk, t)), trunk.elements[e].birth, trunk.elements[e].death});
+        pieces_.push_back({corners_of(trunk, t), trunk.elements[e].birth, trunk.elements[e].death});
     }
     std::size_t bottoms = 1;
     while (bottoms * k_bottom < pieces_.size()) bottoms *= 2;
@@ -190,12 +197,18 @@ class FloatingLeaves::DrawnTrunk {
 
  private:
   static constexpr std::size_t k_bottom = 4;
+  // Few bytes each, as a large trunk has millions: what a distance needs besides is found from the corners.
   struct Piece {
-    Facet facet;
+    FloatBox box() const {
+      FloatBox out;
+      for (const Float3& p : at) out.grow(p);
+      return out;
+    }
+    StoredCorners at;
     std::uint32_t birth = 0, death = k_none;
   };
   struct Node {
-    DoubleBox box;
+    FloatBox box;
     std::uint32_t first = 0, last = 0;
     std::uint32_t birth = k_none, death = 0;  // the first and the last of what is in it
   };
@@ -204,8 +217,9 @@ class FloatingLeaves::DrawnTrunk {
     Node& node = nodes_[i];
     DoubleBox middles;
     for (std::uint32_t p = node.first; p < node.last; ++p) {
-      node.box.grow(pieces_[p].facet.box);
-      middles.grow(pieces_[p].facet.box.centre());
+      const FloatBox box = pieces_[p].box();
+      node.box.grow(box);
+      middles.grow((to_double(box.min) + to_double(box.max)) * 0.5);
       node.birth = std::min(node.birth, pieces_[p].birth);
       node.death = std::max(node.death, pieces_[p].death);
     }
@@ -214,9 +228,12 @@ class FloatingLeaves::DrawnTrunk {
     const Double3 extent = middles.empty() ? Double3{} : middles.extent();
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     const auto at = [&](std::uint32_t p) { return pieces_.begin() + static_cast<std::ptrdiff_t>(p); };
-    std::nth_element(at(node.first), at(half), at(node.last), [&](const Piece& a, const Piece& b) {
-      return a.facet.box.min[axis] + a.facet.box.max[axis] < b.facet.box.min[axis] + b.facet.box.max[axis];
-    });
+    const auto middle = [axis](const Piece& piece) {
+      const float a = piece.at[0][axis], b = piece.at[1][axis], c = piece.at[2][axis];
+      return double{std::min(std::min(a, b), c)} + double{std::max(std::max(a, b), c)};
+    };
+    std::nth_element(at(node.first), at(half), at(node.last),
+                     [&](const Piece& a, const Piece& b) { return middle(a) < middle(b); });
     nodes_[2 * i + 1].first = node.first, nodes_[2 * i + 1].last = half;
     nodes_[2 * i + 2].first = half, nodes_[2 * i + 2].last = node.last;
   }
@@ -234,7 +251,7 @@ class FloatingLeaves::DrawnTrunk {
     if (!pieces_.empty() && !leaf.facets.empty() && open(0)) stack[depth++] = 0;
     const Double3 middle = leaf.box.centre();
     const auto away = [&](std::uint32_t i) {
-      const Double3 d = nodes_[i].box.centre() - middle;
+      const Double3 d = (to_double(nodes_[i].box.min) + to_double(nodes_[i].box.max)) * 0.5 - middle;
       return dot(d, d);
     };
     while (depth > 0) {
@@ -243,8 +260,8 @@ class FloatingLeaves::DrawnTrunk {
       if (2 * i + 2 >= nodes_.size()) {
         for (std::uint32_t p = node.first; p < node.last; ++p) {
           const Piece& piece = pieces_[p];
-          if (!wanted(piece) || box_square(piece.facet.box, leaf.box) > reach()) continue;
-          const double square = leaf.square_to(piece.facet, reach(), enough);
+          if (!wanted(piece) || box_square(piece.box(), leaf.box) > reach()) continue;
+          const double square = leaf.square_to(Facet(exact(piece.at)), reach(), enough);
           if (square <= reach() && !found(piece, square)) return;
         }
         continue;
@@ -265,7 +282,8 @@ class FloatingLeaves::DrawnTrunk {
   std::vector<Node> nodes_;
 };
 
-FloatingLeaves::FloatingLeaves(const Tree& tree, const LodSpectra& spectra) : spectra_(spectra) {
+FloatingLeaves::FloatingLeaves(const Tree& tree, const LodSpectra& spectra, std::uint32_t from)
+    : spectra_(spectra), from_(from) {
   if (spectra.trunk.elements.empty()) return;
   full_ = std::make_unique<const DrawnTrunk>(spectra.trunk, 0);
   drawn_ = std::make_unique<const DrawnTrunk>(spectra.trunk, spectra.trunk.steps());
@@ -292,8 +310,9 @@ std::uint64_t FloatingLeaves::count(const LodLevel& level) const {
 // Most leaves touch what bears them, or are borne by something else as near: how far they were at full detail
 // is asked last.
 bool FloatingLeaves::floats_by(std::uint32_t element, std::uint32_t trunk_steps) {
-  if (!drawn_) return false;
+  if (!drawn_ || (from_ > 0 && trunk_steps <= from_)) return false;
   Known& known = known_[element];
+  known.until = std::max(known.until, from_);
   if (known.until > trunk_steps || known.last) return known.until <= trunk_steps;
   const Leaf leaf(spectra_.leaves, element);
   while (known.until <= trunk_steps) {
@@ -301,7 +320,10 @@ bool FloatingLeaves::floats_by(std::uint32_t element, std::uint32_t trunk_steps)
     if (const auto until = drawn_->reached_until(leaf, allowed, known.until, trunk_steps)) {
       known.until = *until;
     } else if (known.allowed < 0) {
-      known.allowed = k_wider * full_->gap(leaf, known.until > 0 ? tolerance_ : k_anywhere) + tolerance_;
+      known.allowed =
+          k_wider * full_->gap(leaf, known.until > 0 && from_ == 0 ? tolerance_ : k_anywhere) + tolerance_;
+    } else if (from_ > 0 && known.until == from_) {
+      known.until = k_none;
     } else {
       known.last = true;
       return true;

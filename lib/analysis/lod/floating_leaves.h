@@ -16,8 +16,9 @@ namespace copse {
 // left of one, all leaves do.
 class FloatingLeaves {
  public:
-  // Keeps a reference to `spectra`. O(n log n) in the trunk's triangles.
-  FloatingLeaves(const Tree& tree, const LodSpectra& spectra);
+  // Keeps a reference to `spectra`. O(n log n) in the trunk's triangles. floats_by blames the trunk's steps
+  // after `from` alone: what floats after so many has its excuse.
+  FloatingLeaves(const Tree& tree, const LodSpectra& spectra, std::uint32_t from = 0);
   ~FloatingLeaves();
   FloatingLeaves(const FloatingLeaves&) = delete;
   FloatingLeaves& operator=(const FloatingLeaves&) = delete;
@@ -25,10 +26,10 @@ class FloatingLeaves {
   // Of the leaves that are drawn. O(log n) a leaf.
   std::uint64_t count(const LodLevel& level) const;
 
-  // Whether an element of the leaves would float after so many of the trunk's steps or after fewer; never
-  // at full detail. What is found out is kept: asked again, or with fewer steps, it costs nothing. O(log n)
-  // for each form that the trunk near it takes in between. Elements may be asked about in parallel, each of
-  // them by one thread at a time.
+  // Whether an element of the leaves would float after so many of the trunk's steps or after fewer, if more
+  // than `from`; never at full detail. What is found out is kept: asked again, or with fewer steps, it costs
+  // nothing. O(log n) for each form that the trunk near it takes in between. Elements may be asked about in
+  // parallel, each of them by one thread at a time.
   bool floats_by(std::uint32_t element, std::uint32_t trunk_steps);
 
  private:
@@ -43,6 +44,7 @@ class FloatingLeaves {
   const LodSpectra& spectra_;
   std::unique_ptr<const DrawnTrunk> full_, drawn_;  // of full detail; of all steps
   std::vector<Known> known_;
+  std::uint32_t from_ = 0;
   double tolerance_ = 0;
 };
 
