@@ -652,11 +652,6 @@ std::string spectrum_of(const Plan& plan, const PartTriangles& part, Spectrum& s
   return assemble_spectrum(drafts, vertices, s);
 }
 
-std::int32_t exponent_of(double size, int bits) {
-  const int e = size > 0 ? std::ilogb(size) : 0;
-  return e + (size > 1.4142135 * std::ldexp(1.0, e) ? 1 : 0) - bits;
-}
-
 }  // namespace
 
 std::optional<EncodedSpectrum> encode(const Spectrum& spectrum, const Tree& tree,
@@ -670,8 +665,8 @@ std::optional<EncodedSpectrum> encode(const Spectrum& spectrum, const Tree& tree
   double uv = 1;
   for (const SpectrumVertex& v : spectrum.vertices)
     uv = std::max({uv, std::abs(double{v.texcoord.x}), std::abs(double{v.texcoord.y})});
-  plan.position = std::clamp(exponent_of(std::max({e.x, e.y, e.z}), options.position_bits - 1), -120, 100);
-  plan.texcoord = exponent_of(std::min(uv, 4.0), options.texcoord_bits - k_texcoord_slack);
+  plan.position = grid_exponent(std::max({e.x, e.y, e.z}), options.position_bits - 1);
+  plan.texcoord = grid_exponent(std::min(uv, 4.0), options.texcoord_bits - k_texcoord_slack);
   RangeCoder coder;
   if (!std::make_unique<Coder>(coder, plan, tree, part)->run().empty()) return std::nullopt;
   EncodedSpectrum out{.bytes = std::vector<std::uint8_t>(8), .position_error = plan.largest_error};
@@ -687,7 +682,8 @@ std::expected<Spectrum, std::string> decode(std::span<const std::uint8_t> bytes,
   if (bytes.size() < 8) return std::unexpected("it is cut off");
   Plan plan;
   plan.position = get<std::int32_t>(bytes, 0), plan.texcoord = get<std::int32_t>(bytes, 4);
-  if (plan.position < -120 || plan.position > 100 || plan.texcoord < -30 || plan.texcoord > 10)
+  if (plan.position < k_least_exponent || plan.position > k_most_exponent || plan.texcoord < -30 ||
+      plan.texcoord > 10)
     return std::unexpected("the step of its grid is out of range");
   if (tree.radius_count() == 0) return std::unexpected("its tree has no hierarchy");
   const PartTriangles part = trunk_triangles(tree);

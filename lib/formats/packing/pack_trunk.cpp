@@ -427,6 +427,14 @@ class SegmentWalk {
 
 }  // namespace
 
+std::int32_t grid_exponent(double size, int bits) {
+  if (!(size > 0)) return -bits;
+  int exponent = 0;
+  const double fraction = std::frexp(size, &exponent);
+  if (fraction < 0.70710678118654757) --exponent;
+  return std::clamp(exponent - bits, k_least_exponent, k_most_exponent);
+}
+
 double PackGrid::step() const {
   return std::ldexp(1.0, position);
 }

@@ -36,6 +36,10 @@ struct PackGrid {
   double texcoord_step() const;
 };
 
+inline constexpr std::int32_t k_least_exponent = -120, k_most_exponent = 100;
+// The power of two that is nearest to size / 2^bits, by ratio, within these limits.
+std::int32_t grid_exponent(double size, int bits);
+
 // What a corner carries; of the parts that its tree has.
 struct PackedWedge {
   Octahedral normal{};

@@ -37,7 +37,6 @@ struct PackPlan {
 namespace {
 
 constexpr std::size_t k_pack_header = 8;  // two i32: the exponents of the grids
-constexpr std::int32_t k_least_exponent = -120, k_most_exponent = 100;
 
 // ---- groups -----------------------------------------------------------------------------------------------
 
@@ -148,23 +147,14 @@ void build_groups(const PackedGroups& packed, const PackedLeaves& leaves, const 
 
 // ---- the whole --------------------------------------------------------------------------------------------
 
-// The power of two that is nearest to size / 2^bits, by ratio.
-std::int32_t exponent_of(double size, int bits) {
-  if (!(size > 0)) return -bits;
-  int exponent = 0;
-  const double fraction = std::frexp(size, &exponent);
-  if (fraction < 0.70710678118654757) --exponent;
-  return std::clamp(exponent - bits, k_least_exponent, k_most_exponent);
-}
-
 PackGrid grid_of(const Tree& tree, const PackOptions& options) {
   const Float3 e = tree.header.bounds.extent();
   double largest = 1;
   for (const auto* uvs : {&tree.trunk.texcoords, &tree.leaves.texcoords})
     for (const Float2& uv : *uvs)
       largest = std::max({largest, std::abs(double{uv.x}), std::abs(double{uv.y})});
-  return {exponent_of(std::max({e.x, e.y, e.z}), std::clamp(options.position_bits, 8, 20)),
-          exponent_of(std::min(largest, 4.0), std::clamp(options.texcoord_bits, 8, 20))};
+  return {grid_exponent(std::max({e.x, e.y, e.z}), std::clamp(options.position_bits, 8, 20)),
+          grid_exponent(std::min(largest, 4.0), std::clamp(options.texcoord_bits, 8, 20))};
 }
 
 bool holds(const PackGrid& grid, const Tree& tree) {
