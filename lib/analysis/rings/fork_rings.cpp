@@ -162,9 +162,10 @@ Bands read_bands(const Surface& surface) {
 
 RingReading read_fork_rings(const Surface& surface) {
   if (surface.triangles.empty()) return {};
-  const Bands bands = read_bands(surface);
-  return {walk_rings(surface, bands, make_ring_graph(surface, bands)),
-          static_cast<double>(bands.explained()) / static_cast<double>(surface.triangles.size())};
+  Bands bands = read_bands(surface);
+  Hierarchy hierarchy = walk_rings(surface, bands, make_ring_graph(surface, bands));
+  const double share = static_cast<double>(bands.explained()) / static_cast<double>(surface.triangles.size());
+  return {std::move(hierarchy), share, std::move(bands)};
 }
 
 }  // namespace copse

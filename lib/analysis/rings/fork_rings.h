@@ -17,6 +17,7 @@ Bands read_bands(const Surface& surface);
 struct RingReading {
   Hierarchy hierarchy;
   double in_bands = 0;  // share of the triangles that lie in bands
+  Bands bands;
 };
 RingReading read_fork_rings(const Surface& surface);
 

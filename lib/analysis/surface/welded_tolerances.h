@@ -126,6 +126,20 @@ inline constexpr double k_seat_from = 1.5, k_seat_to = 3, k_seat_reach = 3;
 // Radii of the parent before and behind a fork within which a section cuts the other limb too.
 inline constexpr double k_fork_before = 1, k_fork_behind = 0.25;
 
+// --- united_tubes
+
+// Sine by which a surface must bend inward where two tubes meet: ten degrees; quads of bent tubes are folded
+// by less.
+inline constexpr double k_valley_sine = 0.17;
+// Twice a triangle's area over the square of its longest edge: one that is thinner has no normal of its own.
+inline constexpr double k_sliver = 1e-3;
+// Share of a band's length: corners of one ring are nearer to one another along the axis.
+inline constexpr double k_ring_gap = 0.3;
+// How much thicker or thinner than the rings beside it what is left of a ring may be.
+inline constexpr double k_partial_ratio = 1.5;
+// Determinant over squared trace of corners: an arc of less bend tells no circle.
+inline constexpr double k_flat_arc = 1e-4;
+
 // --- flow_skeleton
 
 // Triangles: a piece of more is thinned out to so many before it flows; each step factorises a matrix of that

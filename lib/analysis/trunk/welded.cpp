@@ -4,6 +4,7 @@
 #include "lib/analysis/rings/fork_rings.h"
 #include "lib/analysis/rings/implied_rings.h"
 #include "lib/analysis/skeleton/surface_skeleton.h"
+#include "lib/analysis/skeleton/united_tubes.h"
 #include "lib/analysis/surface/reverse_subdivision.h"
 #include "lib/analysis/surface/surface.h"
 #include "lib/analysis/surface/welded_tolerances.h"
@@ -72,6 +73,20 @@ Hierarchy axes_of_skin(const Surface& s) {
   return axes;
 }
 
+// What a union was made of, where that explains nearly all of the surface; else no radii.
+Hierarchy tubes_of_union(const Surface& s, const RingReading& rings) {
+  Hierarchy united = read_united_tubes(s, rings.bands);
+  if (united.radii.empty()) return {};
+  const Fit fit = fit_of(s, united);
+  if (fit.explained < k_rings_suffice || fit.cost() > fit_of(s, rings.hierarchy).cost()) return {};
+  united.notes.push_back(
+      fmt::format("surface of {} triangles at mesh triangle {}: a union of tubes, taken apart along the "
+                  "valleys where they "
+                  "meet; corners that the union took from rings are completed",
+                  s.triangles.size(), s.order.front()));
+  return united;
+}
+
 Hierarchy recover_surface(const Surface& s, const WeldedOptions& options, bool may_flow) {
   if (options.method != WeldedMethod::surface) {
     if (Hierarchy axes = axes_of_skin(s); !axes.radii.empty()) return axes;
@@ -83,6 +98,10 @@ Hierarchy recover_surface(const Surface& s, const WeldedOptions& options, bool m
     return as_drawn(s, std::move(rings.hierarchy));
   }
   if (rings.in_bands >= k_rings_suffice) return as_drawn(s, std::move(rings.hierarchy));
+  if (options.method == WeldedMethod::automatic) {
+    Hierarchy united = tubes_of_union(s, rings);
+    if (!united.radii.empty()) return united;
+  }
   auto [skeleton, name] = skeletonize(s, options.surface, may_flow);
   if (!rings.hierarchy.radii.empty() &&
       fit_of(s, rings.hierarchy).cost() <= k_rings_may_cost * fit_of(s, skeleton).cost()) {
