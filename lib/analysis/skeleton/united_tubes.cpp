@@ -180,7 +180,9 @@ class UnitedTubes {
       const std::vector<std::uint32_t> line = order(nodes_of[p]);
       if (line.empty()) return false;
       make_tube(p, line);
-      has_rings[p] = 1;
+      // One ring under a cap has no axis.
+      if (tubes_[p].stations.size() < 2) tubes_[p].stations.clear();
+      has_rings[p] = !tubes_[p].stations.empty();
     }
     const auto lost = std::ranges::count_if(cut_.piece, [&](std::uint32_t p) { return !has_rings[p]; });
     return static_cast<double>(lost) <= (1 - k_rings_suffice) * static_cast<double>(s_.triangles.size());
