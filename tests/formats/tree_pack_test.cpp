@@ -292,7 +292,7 @@ void expect_mutants_harmless(const Bytes& sound, int mutants) {
 
 TEST(TreePack, MutantsAreRefusedOrSound) {
   expect_mutants_harmless(packed_file(make_tree({.roots = 1, .radii = 9, .leaves = 12, .groups = 3}, 5)),
-                          5000);
+                          9000);
 }
 
 TEST(TreePack, MutantsOfLeavesOnLimbsAreRefusedOrSound) {

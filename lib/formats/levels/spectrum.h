@@ -61,7 +61,8 @@ struct LodLevel {
   std::uint32_t trunk_steps = 0, leaf_steps = 0;
   std::uint32_t triangles = 0;  // of both parts together
   float error = 0;              // metres: the larger of both spectra's errors after these steps (an estimate)
-  float distance = 0;           // metres from the camera at which it takes over from the finer one
+  float distance = 0;           // metres from the camera at which it takes over from the finer one; between
+                                // two knots that of the finer knot
   friend bool operator==(const LodLevel&, const LodLevel&) = default;
 };
 

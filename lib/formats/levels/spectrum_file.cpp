@@ -99,6 +99,10 @@ std::uint64_t triangles_at(const Spectrum& s, std::uint32_t steps) {
   return s.counts.empty() ? 0 : s.counts[steps];
 }
 
+float error_at(const Spectrum& s, std::uint32_t steps) {
+  return s.errors.empty() ? 0 : s.errors[steps];
+}
+
 std::string check_level(const LodSpectra& s, const LodLevel& l, const LodLevel* before) {
   if (l.trunk_steps > s.trunk.steps() || l.leaf_steps > s.leaves.steps())
     return "takes more steps than there are";
@@ -109,6 +113,7 @@ std::string check_level(const LodSpectra& s, const LodLevel& l, const LodLevel* 
   if (before && (l.trunk_steps < before->trunk_steps || l.leaf_steps < before->leaf_steps ||
                  l.triangles > before->triangles || l.error < before->error))
     return "is finer than the one before";
+  if (before && l.distance < before->distance) return "begins nearer than the one before";
   return {};
 }
 
@@ -247,6 +252,10 @@ Result<LodSpectra> load_spectra(const Container& file, std::size_t radii, std::s
   const auto bytes = file.read(*levels);
   if (!bytes) return std::unexpected(bytes.error());
   if (auto done = decode_levels(*bytes, file.name(), spectra); !done) return std::unexpected(done.error());
+  // The spectra's own errors were rounded up where they are coded small.
+  for (std::vector<LodLevel>* list : {&spectra.schedule, &spectra.discrete})
+    for (LodLevel& l : *list)
+      l.error = std::max(error_at(spectra.trunk, l.trunk_steps), error_at(spectra.leaves, l.leaf_steps));
   return spectra;
 }
 
