@@ -23,8 +23,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// The kernel's ru_maxrss outlives exec(): of a tool that a large process starts it is that process' peak. VmHWM
-// is this program's own.
+// The kernel's ru_maxrss outlives exec(): of a tool that a large process starts it is that process' peak.
+// VmHWM is this program's own.
 std::uint64_t peak_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)

@@ -213,8 +213,9 @@ inline constexpr double k_relaxation_done = 1e-9;
 
 // Limbs of one fork that are looked at for rings that were hung on its hull though they do not look like it.
 inline constexpr std::size_t k_most_hung = 16;
-// Levenberg and Marquardt's iteration: rounds at most (10 where all is as foretold), the damping that it begins with
-// (times the squares of slopes, which are about 1), and the share of the cost below which a gain is none.
+// Levenberg and Marquardt's iteration: rounds at most (10 where all is as foretold), the damping that it
+// begins with (times the squares of slopes, which are about 1), and the share of the cost below which a gain
+// is none.
 inline constexpr int k_frame_rounds = 100;
 inline constexpr double k_frame_damping = 1e-3;
 inline constexpr double k_frame_done = 1e-6;
