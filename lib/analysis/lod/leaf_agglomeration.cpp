@@ -249,8 +249,8 @@ class Agglomeration {
       const Four strange =
           four_at<FourNumbers>(&near_.group[i + 1]) == a.group ? Four{} + 1 : Four{} + k_stranger;
       const Four over = 20 * (area - largest);
-      const Four far =
-          k_near * area * apart * per_width_ * strange + ((largest > 0) & (area > largest) ? over : Four{});
+      const auto is_too_large = (largest > 0) & (area > largest);
+      const Four far = k_near * area * apart * per_width_ * strange + (is_too_large ? over : Four{});
       const Four b_goes =
           far + lost * (b(near_.sole) + a.harm * b(near_.area)) + k_other * b(near_.seen) + near_.full[i];
       const Four a_goes = far + lost * (a.sole + b(near_.harm) * a.area) + k_other * a.seen + b(near_.full);

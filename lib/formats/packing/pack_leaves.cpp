@@ -116,6 +116,7 @@ class LeafCoder {
       if (c_.decoding())
         s.pattern = static_cast<std::uint32_t>(l_.patterns.size()), l_.patterns.emplace_back();
       if (!code_pattern(l_.patterns[s.pattern])) return false;
+      find_first_wedges(s.pattern);
       remember(recent_patterns_, s.pattern);
     }
     remember(recent_shapes_, leaf.shape);
@@ -149,6 +150,21 @@ class LeafCoder {
     }
     p.vertex_count = vertices, p.vertex_of = std::move(vertex_of);
     return true;
+  }
+  void find_first_wedges(std::uint32_t pattern) {
+    const LeafPattern& p = l_.patterns[pattern];
+    if (first_wedge_.size() <= pattern) first_wedge_.resize(pattern + 1);
+    std::vector<std::uint32_t>& first = first_wedge_[pattern];
+    first.assign(p.vertex_count, k_none);
+    for (std::uint32_t w = 0; w < p.vertex_of.size(); ++w)
+      if (first[p.vertex_of[w]] == k_none) first[p.vertex_of[w]] = w;
+  }
+  // Where a vertex is in the picture, by the first pair that has it; nullptr where nothing has it.
+  const Grid2* in_picture(const PackedLeaf& x, std::size_t vertex) const {
+    const PackedShape& s = l_.shapes[x.shape];
+    const std::vector<std::uint32_t>& first = first_wedge_[s.pattern];
+    if (vertex >= first.size() || first[vertex] == k_none) return nullptr;
+    return &(x.mapped ? s.texcoords : x.texcoords)[first[vertex]];
   }
   // 0 is the next one, n the one n before it.
   bool code_index(std::uint32_t& index, std::uint32_t& count, NumberModel& model) {
@@ -353,10 +369,7 @@ class LeafCoder {
   // in lengths of it.
   std::optional<double> mapped_along(const PackedLeaf& x, const LeafPattern& p) const {
     if (!p.has_texcoords) return std::nullopt;
-    const std::vector<Grid2>& uvs = x.mapped ? l_.shapes[x.shape].texcoords : x.texcoords;
-    std::array<const Grid2*, 3> uv{};
-    for (std::size_t w = 0; w < p.vertex_of.size(); ++w)
-      if (const std::uint32_t v = p.vertex_of[w]; v < 3 && uv[v] == nullptr) uv[v] = &uvs[w];
+    const std::array<const Grid2*, 3> uv{in_picture(x, 0), in_picture(x, 1), in_picture(x, 2)};
     if (std::find(uv.begin(), uv.end(), nullptr) != uv.end()) return std::nullopt;
     for (const std::size_t k : {0u, 1u}) {
       const std::int64_t side = (*uv[1])[k] - (*uv[0])[k];
@@ -416,12 +429,8 @@ class LeafCoder {
   // Affine in texture coordinates.
   bool as_mapped(const PackedLeaf& x, const LeafPattern& p, std::size_t v, Grid3& out) const {
     if (!p.has_texcoords) return false;
-    const std::vector<Grid2>& uvs = x.mapped ? l_.shapes[x.shape].texcoords : x.texcoords;
-    std::array<const Grid2*, 4> uv{};
-    for (std::size_t w = 0; w < p.vertex_of.size(); ++w) {
-      const std::size_t at = p.vertex_of[w] == v ? 3 : p.vertex_of[w];
-      if (at < 4 && (p.vertex_of[w] < 3 || p.vertex_of[w] == v) && uv[at] == nullptr) uv[at] = &uvs[w];
-    }
+    const std::array<const Grid2*, 4> uv{in_picture(x, 0), in_picture(x, 1), in_picture(x, 2),
+                                         in_picture(x, v)};
     if (std::find(uv.begin(), uv.end(), nullptr) != uv.end()) return false;
     const auto side = [&](std::size_t i, std::size_t k) { return double((*uv[i])[k] - (*uv[0])[k]); };
     const double area = side(1, 0) * side(2, 1) - side(1, 1) * side(2, 0);
@@ -480,6 +489,7 @@ class LeafCoder {
   std::uint32_t material_ = 0;
   Grid3 last_{};
   Octahedral last_normal_{};
+  std::vector<std::vector<std::uint32_t>> first_wedge_;  // of each vertex of each pattern
   std::vector<std::vector<Grid2>> recent_texcoords_;
   // When each shape was last told. One that has been forgotten is told again, and is another one to who
   // reads: what is learnt of a shape goes by this, not by its number.
