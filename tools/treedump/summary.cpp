@@ -217,7 +217,8 @@ std::string summary_text(const Dump& dump) {
     const TreeHeader& h = dump.file->header();
     add(out, "size", bounds_text(h.bounds));
     if (h.origin != Double3{})
-      add(out, "origin", fmt::format("({}, {}, {})", h.origin.x, h.origin.y, h.origin.z));
+      // No minus zero.
+      add(out, "origin", fmt::format("({}, {}, {})", h.origin.x + 0.0, h.origin.y + 0.0, h.origin.z + 0.0));
     add_trunk(out, dump);
     add_hierarchy(out, dump);
     add_leaves(out, dump);

@@ -51,10 +51,11 @@ void warn_of_unexplained(const Input& input, const TrunkMesh& trunk, const Hiera
   const std::size_t every = trunk.triangles.size() / k_looked_at | 1;  // odd: quads are cut in two
   const double unexplained = 1 - cylinder_error(trunk, hierarchy, 0, every).explained_triangles;
   if (unexplained <= k_usual) return;
-  context.warn(fmt::format(
-      "{}: {:.0f} % of the trunk's triangles fit none of the branches that were found in it; look at them "
-      "with --html, and say with --leaf what is no trunk",
-      input.name, 100 * unexplained));
+  context.warn(
+      fmt::format("{}: {:.0f} % of the trunk's triangles fit none of the branches that were found in it: "
+                  "feet and cuts of "
+                  "branches, lumps, or what is no trunk, which --leaf says; --html shows them",
+                  input.name, 100 * unexplained));
 }
 
 // A tree that fell apart explains its triangles as well as one that did not.
