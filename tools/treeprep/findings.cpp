@@ -49,7 +49,9 @@ Table skeleton_table(const Findings& f) {
       ++triangles[static_cast<int>(f.hierarchy.radii[s].source)];
     }
   }
-  Table table{"where the skeleton comes from", {"radii from", "radii", "trunk triangles explained"}, {}};
+  Table table{"where the skeleton comes from",
+              {"radii from", "radii", "trunk triangles given to their segments"},
+              {}};
   for (int i = 0; i < 3; ++i) {
     if (radii[i] > 0) table.rows.push_back({k_names[i], count(radii[i]), count(triangles[i])});
   }
