@@ -36,7 +36,8 @@ struct EncodedSpectrum {
   std::vector<std::uint8_t> bytes;
   double position_error =
       0;  // the largest distance of a vertex from where it was, metres; at most half a step a side, of a tube
-          // that is coded against the tree a sixteenth of the error of its state where that is more
+          // that is coded against the tree a sixteenth of the error of its state where that is more, of a
+          // leaf that was made for a level a thirty-second of its size
   std::vector<StreamCost> streams = {};  // of what is coded against the tree
 };
 
